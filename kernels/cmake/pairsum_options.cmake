@@ -1,0 +1,7 @@
+# What every target of the project is compiled with.
+add_library(pairsum_options INTERFACE)
+target_compile_features(pairsum_options INTERFACE cxx_std_20)
+target_compile_options(pairsum_options INTERFACE -Wall -Wextra -fno-math-errno -fno-trapping-math)
+if(PAIRSUM_NATIVE)
+  target_compile_options(pairsum_options INTERFACE -march=native)
+endif()
