@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "harness/rows/row.hpp"
+
+namespace pairsum::harness {
+
+/// The rows of one file, in file order within each kind.
+struct rows_file {
+  std::filesystem::path path;
+  std::vector<sample> samples;
+  std::vector<environment_row> environments;
+  std::vector<void_row> voids;
+  bool last_line_cut = false;  ///< a cut last line was dropped
+
+  std::size_t size() const { return samples.size() + environments.size() + voids.size(); }
+  /// The samples without those of rounds that a void row of the same study names.
+  std::vector<sample> valid_samples() const;
+};
+
+/// What to do with a last line that was cut while it was written.
+enum class cut_line { refuse, drop };
+
+/// Reads a rows file strictly. Throws pairsum::error with one line `FILE:LINE: what` for a file that
+/// cannot be opened, is empty, is no rows file, has a wrong row, a sample before its environment row, or
+/// a cut last line (unless it is to be dropped).
+rows_file read_rows(const std::filesystem::path& path, cut_line last_line = cut_line::refuse);
+
+}  // namespace pairsum::harness

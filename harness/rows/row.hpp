@@ -1,0 +1,140 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// The rows of a results file as plain structs; keys and meaning are those of docs/design.md, section 3.
+namespace pairsum::harness {
+
+inline constexpr const char* row_schema = "pairsum.row/1";
+
+/// What was measured. Two rows belong to the same point exactly if these fields are equal.
+struct point {
+  std::string case_name;  ///< key "case"
+  std::string state;
+  double dx = 0;  ///< particle spacing [m]
+  double H = 0;   ///< cut-off radius [m]
+  std::uint64_t n_fluid = 0;
+  std::uint64_t n_boundary = 0;
+  std::string order;
+  int dim = 3;
+  std::string precision;
+  std::string interaction;
+  std::string smoothing;
+  std::string integrator;
+  double dt = 0;  ///< time step [s]
+  std::string backend;
+  std::string grid;
+  int M = 0;
+  int threads = 1;
+  std::string isa;
+  bool operator==(const point&) const = default;
+};
+
+/// Seconds per phase of one step; empty where the phase was not timed.
+struct phases {
+  std::optional<double> index_s, prepare_s, zero_s, sum_s, reduce_s, integrate_s, total_s;
+  bool operator==(const phases&) const = default;
+};
+
+struct phase_member {
+  const char* name;
+  std::optional<double> phases::*value;
+};
+
+/// The phases in the order in which a step runs them, with their keys.
+inline constexpr std::array<phase_member, 7> phase_members{{{"index_s", &phases::index_s},
+                                                            {"prepare_s", &phases::prepare_s},
+                                                            {"zero_s", &phases::zero_s},
+                                                            {"sum_s", &phases::sum_s},
+                                                            {"reduce_s", &phases::reduce_s},
+                                                            {"integrate_s", &phases::integrate_s},
+                                                            {"total_s", &phases::total_s}}};
+
+/// Counted work of the initial state; pairs count once each (i < j).
+struct work_row {
+  std::uint64_t cells = 0, cells_nonempty = 0, sumF1 = 0, sumF2 = 0, pairs_tested = 0,
+                pairs_interacting = 0, pairs_fluid_fluid = 0, pairs_fluid_boundary = 0;
+  bool operator==(const work_row&) const = default;
+};
+
+/// Outcome of the verification. Without a fingerprint (16 hex digits) the row is unverified.
+struct verify_row {
+  std::optional<double> max_rel_err, bound;
+  std::optional<std::string> fingerprint;
+  bool operator==(const verify_row&) const = default;
+};
+
+/// One timed step of a repetition. `phases` is empty exactly if `error` is set.
+struct sample {
+  std::string study;
+  int round = 1, slot = 1, repetition = 1, step = 1;  ///< each counts from 1
+  std::uint64_t seed = 0;
+  std::string utc;          ///< like 2026-11-22T15:30:00.123Z
+  std::string environment;  ///< 16 hex digits, id of an environment row written before
+  struct point point;
+  std::optional<struct phases> phases;
+  std::optional<std::vector<double>> threads_busy_s;  ///< per pass of the summation, if probed
+  std::optional<std::vector<double>> barrier_wait_s;  ///< per pass of the summation, if probed
+  std::optional<work_row> work;
+  std::optional<std::uint64_t> peak_rss_bytes;
+  verify_row verify;
+  std::optional<std::string> error;
+  bool operator==(const sample&) const = default;
+};
+
+/// Where and how the samples that name it were measured.
+struct environment_row {
+  std::string study, utc, environment, host, cpu;
+  std::map<std::string, std::uint64_t> caches;  ///< bytes per cache level
+  int cores = 1;
+  std::optional<std::string> governor;
+  std::string os_kernel, compiler, flags;
+  std::map<std::string, std::string> libraries;
+  std::string git;
+  bool dirty = false;
+  std::string binding;
+  bool operator==(const environment_row&) const = default;
+};
+
+/// Says that the rows of a round of a study do not count.
+struct void_row {
+  std::string study, utc;
+  int round = 1;
+  std::string reason;
+  bool operator==(const void_row&) const = default;
+};
+
+using row = std::variant<sample, environment_row, void_row>;
+
+/// To JSON with exactly the keys of the schema; numbers that are not finite become null.
+void to_json(nlohmann::json& json, const point& value);
+void to_json(nlohmann::json& json, const phases& value);
+void to_json(nlohmann::json& json, const work_row& value);
+void to_json(nlohmann::json& json, const verify_row& value);
+void to_json(nlohmann::json& json, const sample& value);
+void to_json(nlohmann::json& json, const environment_row& value);
+void to_json(nlohmann::json& json, const void_row& value);
+
+/// From JSON, strictly: a missing, unknown or ill-typed key throws pairsum::error naming it.
+void from_json(const nlohmann::json& json, point& value);
+void from_json(const nlohmann::json& json, phases& value);
+void from_json(const nlohmann::json& json, work_row& value);
+void from_json(const nlohmann::json& json, verify_row& value);
+void from_json(const nlohmann::json& json, sample& value);
+void from_json(const nlohmann::json& json, environment_row& value);
+void from_json(const nlohmann::json& json, void_row& value);
+
+/// The row as one line of JSON, without the newline.
+std::string format_row(const row& value);
+
+/// The row of one parsed line; throws pairsum::error naming the key that is wrong.
+row parse_row(const nlohmann::json& json);
+
+}  // namespace pairsum::harness

@@ -1,0 +1,34 @@
+#pragma once
+// Reference loop: that of naive, the cells shared out among OpenMP threads.
+//
+// Race-free: a cell's visit writes the rates of that cell's particles alone, and each cell is visited once.
+#include "sum/backend.hpp"
+#include "sum/gather_cell.hpp"
+
+namespace pairsum {
+
+struct naive_omp {
+  static constexpr backend_traits traits{
+      .name = "naive_omp",
+      .description = "gather, parallel over cells with OpenMP; each pair is seen twice",
+      .aliases = "one-sided, full neighbourhood, no Newton-3, c01",
+      .threads = runtime::omp,
+      .symmetric = false,
+      .deterministic = true,
+      .accumulates = false};
+
+  template <class I>
+  struct workspace {
+    template <class Probe>
+    void prepare(const problem<I>&, const team&, Probe&) {}
+
+    template <class Probe>
+    void sum(const problem<I>& p, const team& t, Probe& probe) {
+      const std::size_t n = p.cells().fluid_cells;
+#pragma omp parallel for num_threads(t.threads()) schedule(dynamic, 64)
+      for (std::size_t c = 1; c <= n; ++c) gather_cell(p, c, probe);
+    }
+  };
+};
+
+}  // namespace pairsum

@@ -1,0 +1,41 @@
+#pragma once
+// Reference loop: that of naive, the cells shared out among the threads of a oneTBB arena.
+//
+// Race-free: a cell's visit writes the rates of that cell's particles alone, and each cell is visited once.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "core/tbb_arena.hpp"
+#include "sum/backend.hpp"
+#include "sum/gather_cell.hpp"
+
+namespace pairsum {
+
+struct naive_tbb {
+  static constexpr backend_traits traits{
+      .name = "naive_tbb",
+      .description = "gather, parallel over cells with oneTBB; each pair is seen twice",
+      .aliases = "one-sided, full neighbourhood, no Newton-3, c01",
+      .threads = runtime::tbb,
+      .symmetric = false,
+      .deterministic = true,
+      .accumulates = false};
+
+  template <class I>
+  struct workspace {
+    template <class Probe>
+    void prepare(const problem<I>&, const team&, Probe&) {}
+
+    template <class Probe>
+    void sum(const problem<I>& p, const team& t, Probe& probe) {
+      using range = ::tbb::blocked_range<std::size_t>;
+      t.arena().arena.execute([&] {
+        ::tbb::parallel_for(range(1, p.cells().fluid_cells + 1, 64), [&](const range& r) {
+          for (std::size_t c = r.begin(); c < r.end(); ++c) gather_cell(p, c, probe);
+        });
+      });
+    }
+  };
+};
+
+}  // namespace pairsum

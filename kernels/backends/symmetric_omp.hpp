@@ -1,0 +1,49 @@
+#pragma once
+// The talk's passes with OpenMP (Willkomm 2009; Willkomm & Buecker 2011):
+//
+//   for o in {0,1}^d:                                    2^d passes, a barrier after each
+//     parallel for base cells B = 2i + o:
+//       sumF1(B)
+//       for j, k in {0,1}^d, k < j, j*k = 0:  sumF2(B+j, B+k)
+//
+// Race-free: a block touches its 2^d cells B + {0,1}^d alone. Base cells of a pass have equal parity o, so on a grid of even side
+// (2^M, the torus included) two blocks of a pass share no cell; passes are separated by barriers. For the same reason the
+// order in which a particle's rate is added to does not depend on the threads: the result is bit-identical.
+#include "sum/backend.hpp"
+#include "sum/block.hpp"
+
+namespace pairsum {
+
+struct symmetric_omp {
+  static constexpr backend_traits traits{
+      .name = "symmetric_omp",
+      .description = "the talk's 2^d conflict-free passes over base blocks with OpenMP",
+      .aliases = "Newton-3, c08 (eight colours in 3D)",
+      .threads = runtime::omp,
+      .symmetric = true,
+      .deterministic = true,
+      .accumulates = true};
+
+  template <class I>
+  struct workspace {
+    coloured_blocks<I::dim> blocks;
+
+    template <class Probe>
+    void prepare(const problem<I>& p, const team& t, Probe&) {
+      blocks.build(p.cells(), t);
+    }
+
+    template <class Probe>
+    void sum(const problem<I>& p, const team& t, Probe& probe) {
+#pragma omp parallel num_threads(t.threads())
+      for (unsigned o = 0; o < coloured_blocks<I::dim>::colours; ++o) {
+        const auto* const b = blocks[o].data();
+        const std::size_t n = blocks[o].size();
+#pragma omp for schedule(dynamic, 32)
+        for (std::size_t k = 0; k < n; ++k) sum_block(p, b[k], probe);
+      }
+    }
+  };
+};
+
+}  // namespace pairsum

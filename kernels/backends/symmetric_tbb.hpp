@@ -1,0 +1,53 @@
+#pragma once
+// The talk's passes with oneTBB (Willkomm 2009; Willkomm & Buecker 2011):
+//
+//   for o in {0,1}^d:                                    2^d passes; parallel_for returns when a pass is done
+//     parallel for base cells B = 2i + o:
+//       sumF1(B)
+//       for j, k in {0,1}^d, k < j, j*k = 0:  sumF2(B+j, B+k)
+//
+// Race-free, and bit-identical for every number of threads, as symmetric_omp is: blocks of a pass share no cell.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "core/tbb_arena.hpp"
+#include "sum/backend.hpp"
+#include "sum/block.hpp"
+
+namespace pairsum {
+
+struct symmetric_tbb {
+  static constexpr backend_traits traits{
+      .name = "symmetric_tbb",
+      .description = "the talk's 2^d conflict-free passes over base blocks with oneTBB",
+      .aliases = "Newton-3, c08 (eight colours in 3D)",
+      .threads = runtime::tbb,
+      .symmetric = true,
+      .deterministic = true,
+      .accumulates = true};
+
+  template <class I>
+  struct workspace {
+    coloured_blocks<I::dim> blocks;
+
+    template <class Probe>
+    void prepare(const problem<I>& p, const team& t, Probe&) {
+      blocks.build(p.cells(), t);
+    }
+
+    template <class Probe>
+    void sum(const problem<I>& p, const team& t, Probe& probe) {
+      using range = ::tbb::blocked_range<std::size_t>;
+      t.arena().arena.execute([&] {
+        for (unsigned o = 0; o < coloured_blocks<I::dim>::colours; ++o) {
+          const auto* const b = blocks[o].data();
+          ::tbb::parallel_for(range(0, blocks[o].size(), 32), [&](const range& r) {
+            for (std::size_t k = r.begin(); k < r.end(); ++k) sum_block(p, b[k], probe);
+          });
+        }
+      });
+    }
+  };
+};
+
+}  // namespace pairsum

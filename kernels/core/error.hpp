@@ -1,0 +1,11 @@
+#pragma once
+#include <stdexcept>
+
+namespace pairsum {
+
+/// Bad input. `what()` is one line that names what is wrong and what would be right.
+struct error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace pairsum

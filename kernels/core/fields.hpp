@@ -1,0 +1,150 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include "core/column.hpp"
+#include "core/vec.hpp"
+
+/// Structs of a few named quantities (what a particle brings to a pair, what a pair gives back) kept as one column per scalar.
+/// Such a struct lists its fields once, in `static constexpr auto fields()`: a tuple of member pointers; a field is a scalar or a
+/// vec. Columns, loads, stores and sums are derived from that at compile time.
+namespace pairsum {
+
+namespace fields_detail {
+
+template <class F>
+struct field {
+  static constexpr int width = 1;
+  using scalar = F;
+  static F& at(F& f, int) { return f; }
+  static const F& at(const F& f, int) { return f; }
+};
+template <class T, int D, int O>
+struct field<Eigen::Matrix<T, D, 1, O>> {
+  static constexpr int width = D;
+  using scalar = T;
+  static T& at(Eigen::Matrix<T, D, 1, O>& f, int d) { return f[d]; }
+  static const T& at(const Eigen::Matrix<T, D, 1, O>& f, int d) { return f[d]; }
+};
+
+template <class P>
+struct member;
+template <class S, class F>
+struct member<F S::*> {
+  using type = field<F>;
+};
+
+template <class S, class F>
+[[gnu::always_inline]] inline void each_member(F&& f) {
+  constexpr auto list = S::fields();
+  [&]<std::size_t... K>(std::index_sequence<K...>) {
+    (f(std::get<K>(list)), ...);
+  }(std::make_index_sequence<std::tuple_size_v<decltype(list)>>{});
+}
+
+template <class S>
+constexpr int count() {
+  return []<class... P>(std::tuple<P...>) {
+    return (member<P>::type::width + ... + 0);
+  }(S::fields());
+}
+
+}  // namespace fields_detail
+
+/// Number of scalars in S, and so of columns.
+template <class S>
+inline constexpr int field_count = fields_detail::count<S>();
+
+/// Calls f(scalar, slot) on every scalar of s, slots counting from 0 in the order of the fields.
+template <class S, class F>
+[[gnu::always_inline]] inline void each_scalar(S&& s, F&& f) {
+  int slot = 0;
+  fields_detail::each_member<std::remove_cvref_t<S>>([&](auto p) __attribute__((always_inline)) {
+    using field = typename fields_detail::member<decltype(p)>::type;
+    for (int d = 0; d < field::width; ++d) f(field::at(s.*p, d), slot++);
+  });
+}
+
+/// A struct of zeros.
+template <class S>
+[[gnu::always_inline]] inline S zero() {
+  S s;
+  each_scalar(s, [](auto& a, int) __attribute__((always_inline)) {
+    a = std::remove_reference_t<decltype(a)>(0);
+  });
+  return s;
+}
+
+/// a += b, field by field.
+template <class S>
+[[gnu::always_inline]] inline void add(S& a, const S& b) {
+  fields_detail::each_member<S>(
+      [&](auto p) __attribute__((always_inline)) { a.*p += b.*p; });
+}
+
+/// Where the columns of S begin; element i of every column together is the struct of particle i.
+template <class S>
+struct field_pointers {
+  std::array<void*, field_count<S>> begin{};
+
+  template <class T>
+  T* column_as(int slot) const {
+    return static_cast<T*>(begin[slot]);
+  }
+  [[gnu::always_inline]] S load(std::size_t i) const {
+    S s;
+    each_scalar(s, [&](auto& a, int slot) __attribute__((always_inline)) {
+      a = column_as<std::remove_reference_t<decltype(a)>>(slot)[i];
+    });
+    return s;
+  }
+  [[gnu::always_inline]] void store(std::size_t i, const S& s) const {
+    each_scalar(s, [&](const auto& a, int slot) __attribute__((always_inline)) {
+      column_as<std::remove_cvref_t<decltype(a)>>(slot)[i] = a;
+    });
+  }
+  [[gnu::always_inline]] void add(std::size_t i, const S& s) const {
+    each_scalar(s, [&](const auto& a, int slot) __attribute__((always_inline)) {
+      column_as<std::remove_cvref_t<decltype(a)>>(slot)[i] += a;
+    });
+  }
+  /// Pointers for which index `origin` means the first element.
+  field_pointers starting_at(std::size_t origin) const {
+    field_pointers shifted = *this;
+    int slot = 0;
+    fields_detail::each_member<S>([&](auto p) {
+      using field = typename fields_detail::member<decltype(p)>::type;
+      for (int d = 0; d < field::width; ++d, ++slot)
+        shifted.begin[slot] = static_cast<typename field::scalar*>(shifted.begin[slot]) - origin;
+    });
+    return shifted;
+  }
+};
+
+/// Owns the columns of S.
+template <class S>
+class field_columns {
+ public:
+  void resize(std::size_t n) {
+    int slot = 0;
+    fields_detail::each_member<S>([&](auto p) {
+      using field = typename fields_detail::member<decltype(p)>::type;
+      for (int d = 0; d < field::width; ++d) data_[slot++].resize(n * sizeof(typename field::scalar));
+    });
+    size_ = n;
+  }
+  std::size_t size() const { return size_; }
+  field_pointers<S> pointers() {
+    field_pointers<S> p;
+    for (int slot = 0; slot < field_count<S>; ++slot) p.begin[slot] = data_[slot].data();
+    return p;
+  }
+
+ private:
+  std::array<column<std::byte>, field_count<S>> data_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace pairsum

@@ -1,0 +1,38 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+
+#include "core/value.hpp"
+
+namespace pairsum {
+
+/// A vector of D components, unpadded.
+template <int D, class T>
+using vec = Eigen::Matrix<T, D, 1, Eigen::DontAlign>;
+
+/// A cell's integer coordinates.
+template <int D>
+using ivec = std::array<std::int64_t, D>;
+
+/// r.r in one fixed order of roundings. Every distance test of the library and of its references is this expression, in the
+/// working precision, so that a pair near r = H is in or out for everybody alike; it is symmetric to the last bit in r -> -r.
+template <int D, class T>
+inline T norm2(const vec<D, T>& r) {
+  T sum = r[D - 1] * r[D - 1];
+  for (int d = D - 2; d >= 0; --d) sum = fused(r[d], r[d], sum);
+  return sum;
+}
+
+/// A closed axis-parallel cuboid [low, high]; the Omega of the talk. Units: m.
+template <int D, class R>
+struct box {
+  vec<D, R> low, high;
+
+  bool contains(const vec<D, R>& x) const {
+    bool inside = true;
+    for (int d = 0; d < D; ++d) inside = inside && x[d] >= low[d] && x[d] <= high[d];
+    return inside;  // a NaN is outside
+  }
+};
+
+}  // namespace pairsum

@@ -1,0 +1,39 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "core/column.hpp"
+#include "pattern/pattern.hpp"
+
+namespace pairsum {
+
+/// The particles of one cell: contiguous ranges of indices into the sorted particle set.
+struct cell_range {
+  std::uint32_t fluid_begin = 0, fluid_end = 0, boundary_begin = 0, boundary_end = 0;
+
+  std::uint32_t fluid() const { return fluid_end - fluid_begin; }
+  std::uint32_t boundary() const { return boundary_end - boundary_begin; }
+};
+
+/// What a grid tells the backends, as plain data, whatever the grid: only non-empty cells exist.
+///
+/// Cell 0 is the empty cell that stands for every cell without particles. Cells 1..fluid_cells hold fluid (and perhaps boundary),
+/// the remaining ones boundary alone: they never open a loop, and so cost nothing.
+template <int D>
+struct cells {
+  static constexpr unsigned stencil = pattern::stencil_cells<D>;
+
+  column<cell_range> range;          ///< index: cell
+  column<std::uint32_t> neighbours;  ///< cell of the neighbour at code n of fluid cell c: [c * 3^D + n]
+  column<std::uint8_t> colour;       ///< parity of the fluid cell's coordinates, one bit per component
+  std::size_t fluid_cells = 0;
+  std::size_t total = 0;  ///< cells of the grid, empty ones included
+
+  std::size_t nonempty() const { return range.size() - 1; }
+  const std::uint32_t* neighbours_of(std::size_t c) const { return neighbours.data() + c * stencil; }
+  std::uint32_t neighbour(std::size_t c, unsigned code) const {
+    return neighbours[c * stencil + code];
+  }
+};
+
+}  // namespace pairsum

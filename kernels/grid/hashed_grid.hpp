@@ -1,0 +1,40 @@
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "core/zero_table.hpp"
+#include "grid/grid.hpp"
+
+namespace pairsum {
+
+/// The talk's hashed grid: cell I = floor((x-A)/w) per component, folded to I mod 2^M, a torus of 2^(dM) cells. Particles of
+/// cells that fold together share a cell; the distance test tells them apart.
+template <int D, class R>
+class hashed_grid final : public grid<D, R> {
+ public:
+  static constexpr std::string_view name = "hashed_grid";
+
+  /// omega: where particles may be (m). H: support radius (m). M: 2 <= M and D M <= 30, else an error that says so.
+  hashed_grid(const box<D, R>& omega, R H, int M);
+
+  std::size_t total_cells() const override { return table_.size(); }
+  int key_bits() const override { return D * M_; }
+  void keys(const particle_set<D, R>& p, std::size_t begin, std::size_t end,
+            std::span<std::uint32_t> out) const override;
+  void connect(std::span<const std::uint32_t> cell_keys, cells<D>& c, const team& t) override;
+
+  /// Width w >= H of a cell: so much wider than H that two particles that pass the test r < H are never two cells apart,
+  /// whatever the rounding of (x-A)/w.
+  R cell_width() const { return w_; }
+
+ private:
+  void mark(std::span<const std::uint32_t> cell_keys, bool present, const team& t);
+
+  vec<D, R> low_;
+  R w_, inv_w_;
+  int M_;
+  zero_table table_;                  ///< key -> cell, 0 where empty
+  std::vector<std::uint32_t> known_;  ///< keys set in the table
+};
+
+}  // namespace pairsum

@@ -1,0 +1,59 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "core/column.hpp"
+#include "core/vec.hpp"
+
+namespace pairsum {
+
+/// What a particle is; also the order in which kinds lie in memory after indexing.
+enum class particle_kind : std::uint8_t {
+  fluid = 0,     ///< contributes and is updated
+  boundary = 1,  ///< contributes and is never updated
+  lost = 2,      ///< left Omega during stepping: kept, no longer summed
+};
+
+/// Particles as one column per quantity (SoA), in any order. SI units: x in m, v in m/s, rho in kg/m3, m in kg.
+template <int D, class R>
+struct particle_set {
+  std::array<column<R>, D> x, v;
+  column<R> rho, m;
+  column<std::uint32_t> id;
+  column<particle_kind> kind;
+
+  std::size_t size() const { return id.size(); }
+
+  void resize(std::size_t n) {
+    for (auto& c : x) c.resize(n);
+    for (auto& c : v) c.resize(n);
+    rho.resize(n);
+    m.resize(n);
+    id.resize(n);
+    kind.resize(n);
+  }
+
+  vec<D, R> position(std::size_t i) const { return gather(x, i); }
+  vec<D, R> velocity(std::size_t i) const { return gather(v, i); }
+
+  /// Calls f on every column.
+  template <class F>
+  void each_column(F&& f) {
+    for (auto& c : x) f(c);
+    for (auto& c : v) f(c);
+    f(rho);
+    f(m);
+    f(id);
+    f(kind);
+  }
+
+ private:
+  static vec<D, R> gather(const std::array<column<R>, D>& c, std::size_t i) {
+    vec<D, R> a;
+    for (int d = 0; d < D; ++d) a[d] = c[d][i];
+    return a;
+  }
+};
+
+}  // namespace pairsum

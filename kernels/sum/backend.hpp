@@ -1,0 +1,33 @@
+#pragma once
+#include <concepts>
+#include <string_view>
+
+#include "core/team.hpp"
+#include "sum/probe.hpp"
+#include "sum/problem.hpp"
+
+namespace pairsum {
+
+/// What a backend says of itself.
+struct backend_traits {
+  std::string_view name;         ///< file = type = CLI word = JSON value = legend
+  std::string_view description;  ///< one line
+  std::string_view aliases;      ///< what the field calls it
+  runtime threads;               ///< whose threads it runs on
+  bool symmetric;                ///< each pair computed once, both particles updated
+  bool deterministic;            ///< bit-identical for every number of threads
+  bool accumulates;              ///< adds to the rates, which the caller has zeroed; else it writes each rate once
+};
+
+/// A summation algorithm: `traits`, and a `workspace<I>` for interaction I that is kept from step to step, with
+///   prepare(problem, team, probe)   refreshes its own buffers, lists, colours (timed apart)
+///   sum(problem, team, probe)       computes; it does not time, print, allocate its output or know the formula
+template <class B, class I>
+concept backend = requires(typename B::template workspace<I> w, const problem<I>& p, const team& t,
+                           no_probe& probe) {
+  { B::traits } -> std::convertible_to<backend_traits>;
+  w.prepare(p, t, probe);
+  w.sum(p, t, probe);
+};
+
+}  // namespace pairsum

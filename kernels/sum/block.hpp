@@ -1,0 +1,127 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "core/team.hpp"
+#include "sum/one_against_many.hpp"
+
+namespace pairsum {
+
+/// The 2^d cells of a base block: cell B + o for every offset o in {0,1}^d, 0 where it is empty.
+template <int D>
+using block = std::array<std::uint32_t, pattern::block_cells<D>>;
+
+namespace block_detail {
+
+/// Bits of the neighbour table: members of the block that come before code `own`, seen from that cell.
+template <int D>
+constexpr auto make_earlier() {
+  std::array<std::uint32_t, pattern::block_cells<D>> mask{};
+  for (unsigned own = 0; own < pattern::block_cells<D>; ++own)
+    for (unsigned other = 0; other < own; ++other)
+      mask[own] |= std::uint32_t{1} << pattern::step_code<D>(own, other);
+  return mask;
+}
+template <int D>
+inline constexpr auto earlier = make_earlier<D>();
+
+}  // namespace block_detail
+
+/// Every base block that holds fluid, once. Blocks are found from the cells with fluid, not by walking the grid, so empty
+/// cells cost nothing: each block is listed by the first of its cells that has fluid. `colour` is the parity o of B: blocks of a colour
+/// share no cell. Calls emit(colour, block) for the blocks of fluid cells [begin, end), in ascending order.
+template <int D, class Emit>
+void each_block(const cells<D>& c, std::size_t begin, std::size_t end, Emit&& emit) {
+  for (std::size_t cell = begin; cell < end; ++cell) {
+    const std::uint32_t* const around = c.neighbours_of(cell);
+    std::uint32_t has_fluid = 0;
+    for (unsigned n = 0; n < cells<D>::stencil; ++n)
+      has_fluid |= static_cast<std::uint32_t>(around[n] - 1 < c.fluid_cells) << n;
+    for (unsigned own = 0; own < pattern::block_cells<D>; ++own) {
+      if (has_fluid & block_detail::earlier<D>[own]) continue;
+      block<D> members;
+      for (unsigned o = 0; o < pattern::block_cells<D>; ++o)
+        members[o] = around[pattern::step_code<D>(own, o)];
+      emit(c.colour[cell] ^ own, members);
+    }
+  }
+}
+
+/// sumF1(B) and the sumF2 of the pattern, as b(d)+1 cell pairs grouped by their lower cell: particle i of cell j meets all later cells
+/// k with j & k == 0 in one go. Touches fluid particles of the block's cells and no others.
+template <class I, class Probe>
+void sum_block(const problem<I>& p, const block<I::dim>& members, Probe& probe) {
+  constexpr unsigned n = pattern::block_cells<I::dim>;
+  const auto& range = p.cells().range;
+  for (unsigned j = 0; j < n; ++j) {
+    const cell_range& own = range[members[j]];
+    if (own.fluid() == 0) continue;
+    range_list<n> fluid, boundary;
+    for (unsigned k = 0; k < n; ++k) {
+      if ((j & k) != 0) continue;
+      const cell_range& other = range[members[k]];
+      if (k > j) fluid.add(other.fluid_begin, other.fluid_end);
+      boundary.add(other.boundary_begin, other.boundary_end);
+    }
+    if (j == 0) {  // inside the base cell: the pairs with a later particle of its own
+      const auto later = fluid;
+      for (std::uint32_t i = own.fluid_begin; i < own.fluid_end; ++i) {
+        range_list<n + 1> all;
+        all.add(i + 1, own.fluid_end);
+        for (const index_range& r : later) all.add(r.begin, r.end);
+        scatter_one(p, i, all, boundary, probe);
+      }
+    } else if (!fluid.empty() || !boundary.empty()) {
+      for (std::uint32_t i = own.fluid_begin; i < own.fluid_end; ++i)
+        scatter_one(p, i, fluid, boundary, probe);
+    }
+  }
+  if constexpr (Probe::counting) {
+    const auto filled = [&](unsigned k) { return members[k] != 0; };
+    const auto fluid = [&](unsigned k) { return range[members[k]].fluid() != 0; };
+    probe.sumF1(fluid(0));
+    for (const auto& pair : pattern::block_pairs<I::dim>)
+      probe.sumF2(filled(pair.j) && filled(pair.k) && (fluid(pair.j) || fluid(pair.k)));
+  }
+}
+
+/// The blocks of each of the 2^d colours.
+template <int D>
+class coloured_blocks {
+ public:
+  static constexpr unsigned colours = pattern::block_cells<D>;
+
+  /// The same lists in the same order for every team.
+  void build(const cells<D>& c, const team& t) {
+    const std::size_t pieces = static_cast<std::size_t>(t.threads());
+    std::vector<std::array<std::size_t, colours>> next(pieces + 1);
+    const auto in_pieces = [&](auto&& visit) {
+      t.for_pieces(c.fluid_cells, [&](std::size_t begin, std::size_t end, std::size_t piece) {
+        visit(begin + 1, end + 1, piece);
+      });
+    };
+    in_pieces([&](std::size_t begin, std::size_t end, std::size_t piece) {
+      std::array<std::size_t, colours> n{};
+      each_block(c, begin, end, [&](unsigned colour, const block<D>&) { ++n[colour]; });
+      next[piece] = n;
+    });
+    for (unsigned o = 0; o < colours; ++o) {
+      std::size_t total = 0;
+      for (std::size_t piece = 0; piece < pieces; ++piece)
+        total += std::exchange(next[piece][o], total);
+      blocks_[o].resize(total);
+    }
+    in_pieces([&](std::size_t begin, std::size_t end, std::size_t piece) {
+      std::array<std::size_t, colours> at = next[piece];
+      each_block(c, begin, end,
+                 [&](unsigned colour, const block<D>& b) { blocks_[colour][at[colour]++] = b; });
+    });
+  }
+
+  const column<block<D>>& operator[](unsigned colour) const { return blocks_[colour]; }
+
+ private:
+  std::array<column<block<D>>, colours> blocks_;
+};
+
+}  // namespace pairsum

@@ -1,0 +1,78 @@
+#pragma once
+#include <array>
+
+#include "sum/problem.hpp"
+
+namespace pairsum {
+
+/// A contiguous range of particle indices.
+struct index_range {
+  std::uint32_t begin, end;
+};
+
+/// Up to `Capacity` ranges on the stack; ranges that touch are merged, so that cells in a row become one long range.
+template <unsigned Capacity>
+class range_list {
+ public:
+  void add(std::uint32_t begin, std::uint32_t end) {
+    if (begin == end) return;
+    if (n_ > 0 && ranges_[n_ - 1].end == begin)
+      ranges_[n_ - 1].end = end;
+    else
+      ranges_[n_++] = {begin, end};
+  }
+  const index_range* begin() const { return ranges_.data(); }
+  const index_range* end() const { return ranges_.data() + n_; }
+  bool empty() const { return n_ == 0; }
+
+ private:
+  std::array<index_range, Capacity> ranges_;
+  unsigned n_ = 0;
+};
+
+/// Finds the candidates of one particle that are in reach. Two steps instead of one loop: the first only tests distances and
+/// packs the indices that pass without a branch, the second (the visitor) runs the formula on those alone; so the
+/// branch predictor never has to guess a distance.
+template <class I>
+class candidate_filter {
+ public:
+  using real = typename I::real;
+  static constexpr int dim = I::dim;
+
+  /// Calls visit(j) for every j of the ranges with |x_i - x_j|^2 < reach2, in ascending order within a range; returns the number.
+  template <class Ranges, class Visit>
+  [[gnu::always_inline]] static std::size_t each_in_reach(const problem<I>& p,
+                                                          const vec<dim, real>& x_i, real reach2,
+                                                          const Ranges& ranges, Visit&& visit) {
+    constexpr std::uint32_t piece = 256;
+    std::uint32_t hits[2 * piece];
+    std::size_t n = 0, total = 0;
+    const auto flush = [&]() __attribute__((always_inline)) {
+      for (std::size_t k = 0; k < n; ++k) visit(hits[k]);
+      total += n;
+      n = 0;
+    };
+    for (const index_range& range : ranges) {
+      for (std::uint32_t begin = range.begin; begin < range.end; begin += piece) {
+        const std::uint32_t end = range.end - begin > piece ? begin + piece : range.end;
+        for (std::uint32_t j = begin; j < end; ++j) {
+          hits[n] = j;
+          n += norm2<dim, real>(x_i - p.position(j)) < reach2;
+        }
+        if (n > piece) [[unlikely]]
+          flush();
+      }
+    }
+    flush();
+    return total;
+  }
+
+  template <class Ranges>
+  static std::uint64_t size(const Ranges& ranges) {
+    std::uint64_t n = 0;
+    for (const index_range& range : ranges) n += range.end - range.begin;
+    return n;
+  }
+};
+
+}  // namespace pairsum

@@ -1,0 +1,86 @@
+#include "sum/check.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace pairsum {
+namespace {
+
+bool inside(const particle_table& p, std::size_t i, const std::vector<double>& low,
+            const std::vector<double>& high) {
+  bool in = true;
+  for (std::size_t d = 0; d < low.size(); ++d) in = in && p.x[d][i] >= low[d] && p.x[d][i] <= high[d];
+  return in;
+}
+
+std::string text(double a) {
+  std::string s = std::to_string(a);
+  return s;
+}
+
+}  // namespace
+
+void check_world(const setup& s) {
+  if (!(s.constants.H > 0) || !std::isfinite(s.constants.H))
+    throw error("the support radius H must be a positive length, is " + text(s.constants.H));
+  for (std::size_t d = 0; d < s.omega_low.size(); ++d)
+    if (!std::isfinite(s.omega_low[d]) || !std::isfinite(s.omega_high[d]) ||
+        !(s.omega_low[d] <= s.omega_high[d]))
+      throw error("Omega must have finite corners with A <= B, component " + std::to_string(d) +
+                  " is [" + text(s.omega_low[d]) + ", " + text(s.omega_high[d]) + "]");
+}
+
+void check_input(const particle_table& p, const setup& s) {
+  check_world(s);
+  if (p.dim != s.dim)
+    throw error("the particles are " + std::to_string(p.dim) + "D, the summation is " +
+                std::to_string(s.dim) + "D");
+  if (p.size() >= (std::size_t{1} << 32) - 1) throw error("at most 2^32 - 2 particles can be summed");
+  std::size_t outside = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const auto finite = [&](double a, const char* what) {
+      if (!std::isfinite(a))
+        throw error("particle " + std::to_string(i) + " has a " + what + " that is not finite (" +
+                    text(a) + ")");
+    };
+    const auto positive = [&](double a, const char* what) {
+      finite(a, what);
+      if (!(a > 0))
+        throw error("particle " + std::to_string(i) + " has a " + what + " of " + text(a) +
+                    ", which must be positive");
+    };
+    for (int d = 0; d < p.dim; ++d) {
+      finite(p.x[d][i], "position");
+      finite(p.v[d][i], "velocity");
+    }
+    positive(p.rho[i], "density");
+    positive(p.m[i], "mass");
+    outside += !inside(p, i, s.omega_low, s.omega_high);
+  }
+  if (outside > 0)
+    throw error(std::to_string(outside) + " of " + std::to_string(p.size()) +
+                " particles lie outside Omega; move them, enlarge Omega, or drop them (--outside drop)");
+}
+
+std::size_t drop_outside(particle_table& p, const std::vector<double>& low,
+                         const std::vector<double>& high) {
+  std::size_t kept = 0;
+  const std::size_t n = p.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!inside(p, i, low, high)) continue;
+    for (int d = 0; d < p.dim; ++d) {
+      p.x[d][kept] = p.x[d][i];
+      p.v[d][kept] = p.v[d][i];
+    }
+    p.rho[kept] = p.rho[i];
+    p.m[kept] = p.m[i];
+    p.kind[kept] = p.kind[i];
+    ++kept;
+  }
+  p.resize(kept);
+  return n - kept;
+}
+
+}  // namespace pairsum

@@ -1,0 +1,19 @@
+#pragma once
+#include <vector>
+
+#include "particles/particle_table.hpp"
+#include "sum/setup.hpp"
+
+namespace pairsum {
+
+/// Throws pairsum::error unless H, Omega and every particle are usable: names the first bad particle, or counts those outside Omega.
+void check_input(const particle_table& p, const setup& s);
+
+/// Throws pairsum::error for an H or an Omega that no particles could make good.
+void check_world(const setup& s);
+
+/// Removes particles outside the closed Omega; returns how many. Ids are row numbers, so they change.
+std::size_t drop_outside(particle_table& p, const std::vector<double>& low,
+                         const std::vector<double>& high);
+
+}  // namespace pairsum

@@ -1,0 +1,56 @@
+#include "sum/grids.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/tbb_arena.hpp"
+#include "grid/hashed_grid.hpp"
+#include "sum/check.hpp"
+#include "core/names.hpp"
+
+namespace pairsum {
+
+std::vector<std::string_view> grid_names() { return {hashed_grid<3, double>::name}; }
+
+template <int D, class R>
+std::unique_ptr<grid<D, R>> make_grid(const setup& s) {
+  check_world(s);
+  if (s.grid == hashed_grid<D, R>::name)
+    return std::make_unique<hashed_grid<D, R>>(make_box<D, R>(s), static_cast<R>(s.constants.H), s.M);
+  throw unknown_name("grid", s.grid, grid_names());
+}
+
+template <int D, class R>
+box<D, R> make_box(const setup& s) {
+  box<D, R> b;
+  const R far = std::numeric_limits<R>::infinity();
+  for (int d = 0; d < D; ++d) {
+    const double low = s.omega_low.at(d), high = s.omega_high.at(d);
+    b.low[d] = static_cast<R>(low);
+    b.high[d] = static_cast<R>(high);
+    if (static_cast<double>(b.low[d]) > low) b.low[d] = std::nextafter(b.low[d], -far);
+    if (static_cast<double>(b.high[d]) < high) b.high[d] = std::nextafter(b.high[d], far);
+  }
+  return b;
+}
+
+void with_one_thread(runtime kind, const std::function<void(const team&)>& f) {
+  if (kind == runtime::omp) return f(team::omp(1));
+  if (kind == runtime::serial) return f(team());
+  tbb_arena arena(1);
+  f(team::tbb(1, arena));
+}
+
+#define PAIRSUM_GRIDS(D, R)                                          \
+  template std::unique_ptr<grid<D, R>> make_grid<D, R>(const setup&); \
+  template box<D, R> make_box<D, R>(const setup&);
+PAIRSUM_GRIDS(1, double)
+PAIRSUM_GRIDS(2, double)
+PAIRSUM_GRIDS(3, double)
+PAIRSUM_GRIDS(1, float)
+PAIRSUM_GRIDS(2, float)
+PAIRSUM_GRIDS(3, float)
+#undef PAIRSUM_GRIDS
+
+}  // namespace pairsum

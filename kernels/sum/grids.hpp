@@ -1,0 +1,27 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/team.hpp"
+#include "grid/grid.hpp"
+#include "sum/setup.hpp"
+
+namespace pairsum {
+
+/// Names of the grids, in the order they are listed.
+std::vector<std::string_view> grid_names();
+
+/// The grid that `s` names; an error lists the valid names or says what is wrong with M or H.
+template <int D, class R>
+std::unique_ptr<grid<D, R>> make_grid(const setup& s);
+
+/// Omega in the working precision, rounded outwards, so that no particle inside it is outside after rounding.
+template <int D, class R>
+box<D, R> make_box(const setup& s);
+
+/// Calls f with a team of one thread of the given kind.
+void with_one_thread(runtime kind, const std::function<void(const team&)>& f);
+
+}  // namespace pairsum

@@ -1,0 +1,68 @@
+#pragma once
+#include "sum/candidates.hpp"
+#include "sum/probe.hpp"
+
+namespace pairsum {
+
+/// Adds to u_i what the boundary particles of `ranges` do to fluid particle i.
+template <class I, class Probe, class Ranges>
+[[gnu::always_inline]] inline void add_boundary(const problem<I>& p, std::uint32_t i,
+                                                const particle_of<I>& a, const Ranges& ranges,
+                                                rates_of<I>& u_i, Probe& probe) {
+  if (ranges.empty()) return;
+  const auto x_i = p.position(i);
+  const std::size_t n = candidate_filter<I>::each_in_reach(
+      p, x_i, p.boundary_reach2, ranges, [&](std::uint32_t b) __attribute__((always_inline)) {
+        const vec<I::dim, typename I::real> r = x_i - p.position(b);
+        add(u_i, p.formula->boundary(r, norm2<I::dim, typename I::real>(r), a, p.boundary.load(b)));
+      });
+  if constexpr (Probe::counting) {
+    probe.tested(candidate_filter<I>::size(ranges));
+    probe.boundary_pairs(n);
+  }
+}
+
+/// Symmetric: each fluid pair (i, j in ranges) is computed once and updates both; i's sum stays in registers until the end.
+template <class I, class Probe, class FluidRanges, class BoundaryRanges>
+[[gnu::always_inline]] inline void scatter_one(const problem<I>& p, std::uint32_t i,
+                                               const FluidRanges& fluid,
+                                               const BoundaryRanges& boundary, Probe& probe) {
+  const auto x_i = p.position(i);
+  const auto a = p.fluid.load(i);
+  auto u_i = zero<rates_of<I>>();
+  const std::size_t n = candidate_filter<I>::each_in_reach(
+      p, x_i, p.reach2, fluid, [&](std::uint32_t j) __attribute__((always_inline)) {
+        const vec<I::dim, typename I::real> r = x_i - p.position(j);
+        const auto c = p.formula->pair(r, norm2<I::dim, typename I::real>(r), a, p.fluid.load(j));
+        add(u_i, c.to_i);
+        p.u.add(j, c.to_j);
+      });
+  if constexpr (Probe::counting) {
+    probe.tested(candidate_filter<I>::size(fluid));
+    probe.fluid_pairs(n);
+  }
+  add_boundary(p, i, a, boundary, u_i, probe);
+  p.u.add(i, u_i);
+}
+
+/// Gather: fluid particle i collects its own side from every neighbour; nothing else is written. A pair is seen twice, so the probe
+/// counts it by its side with j < i.
+template <class I, class Probe, class FluidRanges, class BoundaryRanges>
+[[gnu::always_inline]] inline void gather_one(const problem<I>& p, std::uint32_t i,
+                                              const FluidRanges& fluid,
+                                              const BoundaryRanges& boundary, Probe& probe) {
+  const auto x_i = p.position(i);
+  const auto a = p.fluid.load(i);
+  auto u_i = zero<rates_of<I>>();
+  candidate_filter<I>::each_in_reach(
+      p, x_i, p.reach2, fluid, [&](std::uint32_t j) __attribute__((always_inline)) {
+        const vec<I::dim, typename I::real> r = x_i - p.position(j);
+        add(u_i, p.formula->pair(r, norm2<I::dim, typename I::real>(r), a, p.fluid.load(j)).to_i);
+        if constexpr (Probe::counting) probe.fluid_pairs(j < i);
+      });
+  if constexpr (Probe::counting) probe.tested(candidate_filter<I>::size(fluid));
+  add_boundary(p, i, a, boundary, u_i, probe);
+  p.u.store(i, u_i);
+}
+
+}  // namespace pairsum

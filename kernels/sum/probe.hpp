@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdint>
+
+namespace pairsum {
+
+/// Work of one summation, counted in an instantiation of its own, never in the timed one.
+struct work_counts {
+  std::uint64_t cells = 0, cells_nonempty = 0;
+  std::uint64_t sumF1 = 0, sumF2 = 0;      ///< cells and cell pairs visited (those with fluid); 0 for the gather
+  std::uint64_t pairs_tested = 0;          ///< distance tests made
+  std::uint64_t pairs_fluid_fluid = 0;     ///< interacting pairs, each once
+  std::uint64_t pairs_fluid_boundary = 0;
+
+  std::uint64_t pairs_interacting() const { return pairs_fluid_fluid + pairs_fluid_boundary; }
+};
+
+/// The timed instantiation counts nothing.
+struct no_probe {
+  static constexpr bool counting = false;
+  void sumF1(std::uint64_t) {}
+  void sumF2(std::uint64_t) {}
+  void tested(std::uint64_t) {}
+  void fluid_pairs(std::uint64_t) {}
+  void boundary_pairs(std::uint64_t) {}
+};
+
+/// Counts; for one thread.
+struct work_probe {
+  static constexpr bool counting = true;
+  work_counts counts;
+  void sumF1(std::uint64_t n) { counts.sumF1 += n; }
+  void sumF2(std::uint64_t n) { counts.sumF2 += n; }
+  void tested(std::uint64_t n) { counts.pairs_tested += n; }
+  void fluid_pairs(std::uint64_t n) { counts.pairs_fluid_fluid += n; }
+  void boundary_pairs(std::uint64_t n) { counts.pairs_fluid_boundary += n; }
+};
+
+}  // namespace pairsum

@@ -1,0 +1,196 @@
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include "sum/rate_names.hpp"
+#include "sum/reference.hpp"
+#include "sum/running_error.hpp"
+#include "sum/setup.hpp"
+
+namespace pairsum {
+
+/// The reference for one interaction in one precision. Terms are evaluated in R with their error bounds, sums run in long
+/// double. A backend's rate may differ by its terms' errors, the reference's own, and the backend's n additions in any order:
+///   |rate - value| <= 2 sum e_k + n u / (1 - n u) * sum (|t_k| + e_k)           (Higham, sec. 4.2)
+template <class I>
+class reference_of final : public reference {
+  using R = typename I::real;
+  using tracked = running_error<R>;
+  static constexpr int D = I::dim;
+  using rates = typename I::template rates<tracked>;
+  static constexpr int slots = field_count<rates>;
+
+ public:
+  explicit reference_of(const setup& s) : formula_(s.constants), H_(static_cast<R>(s.constants.H)) {}
+
+  expectation brute_force(const particle_table& table, const team& t,
+                          std::vector<std::uint32_t> ids) const override {
+    const world w(*this, table);
+    if (ids.empty()) ids = w.fluid;
+    return evaluate(w, ids, t, [&](std::uint32_t, auto&& meet) {
+      for (std::uint32_t j = 0; j < table.size(); ++j) meet(j);
+    });
+  }
+
+  expectation cell_search(const particle_table& table, const team& t) const override {
+    const world w(*this, table);
+    const search s(w, H_);
+    return evaluate(w, w.fluid, t, [&](std::uint32_t i, auto&& meet) { s.around(w, i, meet); });
+  }
+
+ private:
+  /// The particles, rounded to R, with what they bring to a pair.
+  struct world {
+    std::vector<vec<D, R>> x;
+    std::vector<typename I::template particle<tracked>> a;
+    std::vector<typename I::template boundary_particle<tracked>> b;
+    std::vector<particle_kind> kind;
+    std::vector<std::uint32_t> fluid;
+
+    world(const reference_of& f, const particle_table& table)
+        : x(table.size()), a(table.size()), b(table.size()), kind(table.kind) {
+      for (std::uint32_t i = 0; i < table.size(); ++i) {
+        particle_state<D, tracked> s;
+        for (int d = 0; d < D; ++d) {
+          x[i][d] = static_cast<R>(table.x[d][i]);
+          s.x[d] = x[i][d];
+          s.v[d] = static_cast<R>(table.v[d][i]);
+        }
+        s.rho = static_cast<R>(table.rho[i]);
+        s.m = static_cast<R>(table.m[i]);
+        s.id = i;
+        if (kind[i] == particle_kind::fluid) {
+          a[i] = f.formula_.derive(s);
+          fluid.push_back(i);
+        } else if (kind[i] == particle_kind::boundary) {
+          b[i] = f.formula_.derive_boundary(s);
+        }
+      }
+    }
+  };
+
+  /// Particles sorted by an own cell number; a row of three cells is one range.
+  struct search {
+    std::vector<std::pair<std::array<std::int64_t, D>, std::uint32_t>> sorted;  // (z, y, x), particle
+    double inverse_width;
+
+    search(const world& w, R H) : inverse_width(1 / (1.01 * static_cast<double>(H))) {
+      sorted.reserve(w.x.size());
+      for (std::uint32_t i = 0; i < w.x.size(); ++i)
+        if (w.kind[i] != particle_kind::lost) sorted.emplace_back(cell(w.x[i]), i);
+      std::ranges::sort(sorted);
+    }
+    std::array<std::int64_t, D> cell(const vec<D, R>& x) const {
+      std::array<std::int64_t, D> c;
+      for (int d = 0; d < D; ++d)
+        c[D - 1 - d] =
+            static_cast<std::int64_t>(std::floor(static_cast<double>(x[d]) * inverse_width));
+      return c;
+    }
+    template <class Meet>
+    void around(const world& w, std::uint32_t i, Meet&& meet) const {
+      const auto own = cell(w.x[i]);
+      std::size_t rows = 1;
+      for (int d = 1; d < D; ++d) rows *= 3;
+      for (std::size_t row = 0; row < rows; ++row) {
+        auto low = own;
+        std::size_t code = row;
+        for (int d = 0; d < D - 1; ++d, code /= 3) low[d] += static_cast<std::int64_t>(code % 3) - 1;
+        auto high = low;
+        low[D - 1] -= 1;
+        high[D - 1] += 1;
+        auto at = std::ranges::lower_bound(sorted, low, {}, [](const auto& s) { return s.first; });
+        for (; at != sorted.end() && at->first <= high; ++at) meet(at->second);
+      }
+    }
+  };
+
+  struct sums {
+    std::array<long double, slots> value{}, magnitude{}, error{};
+    std::size_t terms = 0;
+
+    void take(const rates& one, const rates* other) {
+      ++terms;
+      std::array<double, slots> e;
+      each_scalar(one, [&](const auto& t, int k) {
+        value[k] += plain(t);
+        magnitude[k] += std::abs(plain(t));
+        e[k] = error_of(t);
+      });
+      if (other)
+        each_scalar(*other, [&](const auto& t, int k) { e[k] = std::max(e[k], error_of(t)); });
+      for (int k = 0; k < slots; ++k) error[k] += e[k];
+    }
+    static long double plain(const tracked& t) { return t.v; }
+    static double error_of(const tracked& t) { return t.e; }
+    static long double plain(std::uint64_t n) { return n; }
+    static double error_of(std::uint64_t) { return 0; }
+  };
+
+  template <class Candidates>
+  expectation evaluate(const world& w, const std::vector<std::uint32_t>& ids, const team& t,
+                       Candidates&& candidates) const {
+    expectation out;
+    out.names = rate_names<rates_of<I>>();
+    out.ids = ids;
+    for (auto* c : {&out.value, &out.bound, &out.magnitude})
+      c->assign(slots, std::vector<double>(ids.size()));
+    constexpr bool exact = std::is_integral_v<std::remove_cvref_t<decltype(first_scalar())>>;
+    const R boundary_reach = static_cast<R>(I::boundary_reach) * H_;
+    std::atomic<std::uint64_t> fluid_sides = 0, boundary_pairs = 0;
+    constexpr std::size_t piece = 256;
+    t.for_each((ids.size() + piece - 1) / piece, [&](std::size_t p) {
+      std::uint64_t sides = 0, walls = 0;
+      for (std::size_t k = p * piece; k < std::min(ids.size(), (p + 1) * piece); ++k) {
+        const std::uint32_t i = ids[k];
+        sums s;
+        candidates(i, [&](std::uint32_t j) {
+          if (j == i || w.kind[j] == particle_kind::lost) return;
+          const vec<D, R> r = w.x[i] - w.x[j];
+          const R r2 = norm2<D, R>(r);
+          if (!(r2 < H_ * H_)) return;
+          vec<D, tracked> rt;
+          for (int d = 0; d < D; ++d) rt[d] = tracked(r[d], tracked::rounded(r[d]));
+          const tracked r2t(r2, (D + 2) * tracked::rounded(r2));
+          if (w.kind[j] == particle_kind::boundary) {
+            ++walls;
+            if (!(r2 < boundary_reach * boundary_reach)) return;
+            s.take(formula_.boundary(rt, r2t, w.a[i], w.b[j]), nullptr);
+          } else {
+            ++sides;
+            const vec<D, tracked> back = -rt;
+            const auto seen_from_j = formula_.pair(back, r2t, w.a[j], w.a[i]).to_j;
+            s.take(formula_.pair(rt, r2t, w.a[i], w.a[j]).to_i, &seen_from_j);
+          }
+        });
+        const double n = static_cast<double>(s.terms);
+        const double u = 0.5 * static_cast<double>(std::numeric_limits<R>::epsilon());
+        for (int c = 0; c < slots; ++c) {
+          out.value[c][k] = static_cast<double>(s.value[c]);
+          out.magnitude[c][k] = static_cast<double>(s.magnitude[c]);
+          out.bound[c][k] =
+              exact ? 0
+                    : static_cast<double>(2 * s.error[c] +
+                                          n * u / (1 - n * u) * (s.magnitude[c] + s.error[c]));
+        }
+      }
+      fluid_sides += sides;
+      boundary_pairs += walls;
+    });
+    out.pairs_fluid_fluid = fluid_sides / 2;
+    out.pairs_fluid_boundary = boundary_pairs;
+    return out;
+  }
+
+  static auto first_scalar() {
+    using first = std::remove_cvref_t<decltype(std::get<0>(rates::fields()))>;
+    return typename fields_detail::member<first>::type::scalar{};
+  }
+
+  I formula_;
+  R H_;
+};
+
+}  // namespace pairsum

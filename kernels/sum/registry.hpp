@@ -1,0 +1,71 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sum/reference.hpp"
+#include "sum/summation.hpp"
+
+namespace pairsum {
+
+/// One way to sum that was built: a backend with an interaction, a smoothing kernel, a dimension and a precision.
+struct combination {
+  std::string interaction, smoothing;  ///< smoothing is "" where the interaction uses none
+  int dim;
+  std::string precision;
+  bool operator==(const combination&) const = default;
+};
+
+/// A backend as `pairsum list` shows it.
+struct backend_entry {
+  backend_traits traits;
+  std::string unavailable;  ///< why it cannot be used, empty if it can
+};
+
+/// All that was built, and the only door to it.
+class registry {
+ public:
+  /// The registry of this library, filled by the enrolment that the build generates.
+  static const registry& instance();
+
+  const std::vector<backend_entry>& backends() const { return backends_; }
+  std::vector<std::string> interactions() const;
+  std::vector<std::string> smoothings() const;
+  std::vector<std::string> precisions() const;
+  std::vector<int> dims() const;
+
+  /// The backend's entry; an unknown or unavailable name is an error that lists the valid ones.
+  const backend_entry& find_backend(const std::string& name) const;
+
+  /// The summation that `s` names, without particles yet. Errors: unknown names, combinations that were not built, M, H, Omega.
+  std::unique_ptr<summation> make_summation(const setup& s) const;
+  /// The oracle for the interaction, smoothing, dimension and precision that `s` names.
+  std::unique_ptr<reference> make_reference(const setup& s) const;
+
+  // For the enrolment.
+  using summation_maker = std::function<std::unique_ptr<summation>(const setup&)>;
+  using reference_maker = std::function<std::unique_ptr<reference>(const setup&)>;
+  void enrol_backend(const backend_traits& t, std::string unavailable = {});
+  void enrol(std::string_view backend, combination c, summation_maker make);
+  void enrol_reference(combination c, reference_maker make);
+
+ private:
+  template <class Entries>
+  const auto& find(const Entries& entries, const setup& s) const;
+
+  struct made {
+    std::string backend;
+    combination what;
+    summation_maker make;
+  };
+  struct oracle {
+    combination what;
+    reference_maker make;
+  };
+  std::vector<backend_entry> backends_;
+  std::vector<made> summations_;
+  std::vector<oracle> references_;
+};
+
+}  // namespace pairsum

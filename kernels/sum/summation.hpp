@@ -1,0 +1,50 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "particles/particle_table.hpp"
+#include "sum/backend.hpp"
+#include "sum/rate_table.hpp"
+#include "sum/setup.hpp"
+
+namespace pairsum {
+
+/// One backend with one interaction on one set of particles, its types erased: called once per summation, so the
+/// virtual call costs nothing. The phases must be called in their order; a caller may time each.
+class summation {
+ public:
+  virtual ~summation() = default;
+
+  virtual const backend_traits& traits() const = 0;
+
+  /// Takes the particles (ids are row numbers) in the given order of memory (empty: id order). Positions must be finite and in
+  /// Omega, masses and densities positive; else an error that says which particle, or how many, and changes nothing.
+  virtual void load(const particle_table& p, const std::vector<std::uint32_t>& order) = 0;
+
+  virtual void index(const team& t) = 0;    ///< cell keys, sort, reorder, cell ranges, neighbour table
+  virtual void prepare(const team& t) = 0;  ///< per-particle terms of the formula, the backend's workspace
+  virtual void zero(const team& t) = 0;     ///< rates to 0, for backends that accumulate
+  virtual void sum(const team& t) = 0;      ///< the summation
+  virtual void reduce(const team& t) = 0;   ///< joins private copies, for backends that have them
+
+  /// All phases once.
+  void evaluate(const team& t) {
+    index(t);
+    prepare(t);
+    zero(t);
+    sum(t);
+    reduce(t);
+  }
+
+  /// The work of a summation of the state as indexed last; an untimed instantiation of its own, on one thread.
+  virtual work_counts count_work() = 0;
+
+  virtual rate_table rates() const = 0;
+  /// 64-bit hash of the rates' bytes in id order: equal for bit-identical rates, whatever the order of memory.
+  virtual std::uint64_t fingerprint() const = 0;
+  virtual particle_table snapshot() const = 0;
+  /// Particles that have left Omega since load().
+  virtual std::size_t lost() const = 0;
+};
+
+}  // namespace pairsum

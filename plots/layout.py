@@ -1,0 +1,97 @@
+"""Figures of panels placed in inches: room for labels at line ends, a title, a footer."""
+import math
+import textwrap
+
+from matplotlib.figure import Figure
+
+import style
+
+_LINE = 0.17  # inches per line of the footer
+
+
+def arrange(groups, most=3):
+    """Place groups of panels: [(row, column)] per group, each group on rows of its own.
+
+    Groups of one panel each share rows. Rows hold at most `most` panels.
+    """
+    if all(len(group) == 1 for group in groups):
+        return [[place] for place in _flow(len(groups), most, 0)]
+    placed, row = [], 0
+    for group in groups:
+        placed.append(_flow(len(group), most, row))
+        row = placed[-1][-1][0] + 1
+    return placed
+
+
+def _flow(count, most, first):
+    rows = math.ceil(count / most)
+    columns = math.ceil(count / rows)
+    return [(first + index // columns, index % columns) for index in range(count)]
+
+
+class Sheet:
+    """A figure with panels of one size (inches) at given places; `gaps` are left and right of each.
+
+    heights: {row: inches}, or one number for all rows.
+    """
+
+    def __init__(self, summary, title, subtitle, places, width, heights, gaps, head=0.0):
+        rows = 1 + max(row for row, _ in places)
+        columns = 1 + max(column for _, column in places)
+        if not isinstance(heights, dict):
+            heights = {row: heights for row in range(rows)}
+        left, right, above, below = gaps[0], gaps[1], 0.42, 0.62
+        self.size = [max(7.6, columns * (left + width + right) + 0.15), 0.0]
+        wrap = int(self.size[0] * 12.2)
+        title = textwrap.wrap(title, int(self.size[0] * 8.2))
+        subtitle = textwrap.wrap(subtitle, wrap)
+        footer = footer_lines(summary, int(wrap * 1.15))
+        under = 0.30 + 0.25 * (len(title) - 1)
+        head += under + 0.52 + 0.19 * (len(subtitle) - 1)
+        foot = 0.22 + _LINE * len(footer)
+        self.size[1] = head + foot + sum(heights.values()) + rows * (above + below)
+        self.figure = Figure(figsize=self.size)
+        self.axes = {}
+        for row, column in places:
+            top = head + above + sum(heights[r] + above + below for r in range(row))
+            self.axes[row, column] = self._panel(0.1 + column * (left + width + right) + left,
+                                                 top, width, heights[row])
+        self._text(0.16, 0.20, "\n".join(title), fontsize=style.TITLE, fontweight="bold", va="top",
+                   linespacing=1.3)
+        self._text(0.16, under + 0.19, "\n".join(subtitle), fontsize=style.SIZE, va="top",
+                   linespacing=1.35)
+        self._text(0.16, self.size[1] - foot + 0.08, "\n".join(footer), fontsize=style.SMALL - 1,
+                   color=style.MUTED, va="top", linespacing=1.4)
+        self.head = head
+
+    def _panel(self, x, top, width, height):
+        return self.figure.add_axes([x / self.size[0], 1 - (top + height) / self.size[1],
+                                     width / self.size[0], height / self.size[1]])
+
+    def _text(self, x, top, text, **options):
+        self.figure.text(x / self.size[0], 1 - top / self.size[1], text, **options)
+
+
+def panel_title(axes, text, width):
+    """Title a panel, wrapped to its width in inches."""
+    axes.set_title("\n".join(textwrap.wrap(text, int(width * 10.5))), pad=7)
+
+
+def footer_lines(summary, wrap):
+    """Say where the numbers come from: host cpu, compiler, git; then the summary's caveats."""
+    environments = summary["environments"]
+    lines = ["environment not recorded"]
+    if environments:
+        first = environments[0]
+        parts = [first.get("cpu"), f"{first['cores']} cores" if first.get("cores") else None,
+                 first.get("compiler"), f"git {first['git']}" if first.get("git") else None]
+        text = ", ".join(str(part) for part in parts if part) or lines[0]
+        text += " (with uncommitted changes)" if first.get("dirty") else ""
+        more = len(environments) - 1
+        text += f"; and {more} more environment{'s' * (more > 1)}" if more else ""
+        lines = textwrap.wrap(text, wrap)
+    for caveat in summary["caveats"][:3]:
+        lines += textwrap.wrap(f"Caveat: {caveat}", wrap)
+    if len(summary["caveats"]) > 3:
+        lines.append(f"{len(summary['caveats']) - 3} more caveats are in the summary.")
+    return lines

@@ -1,0 +1,102 @@
+"""Sort rows into panels and say in words what a panel shows."""
+
+#: Fields that tell panels apart. Points hold all of them, tables the first three and maybe more.
+FIELDS = ("case", "state", "dx", "n_fluid", "n_boundary", "H", "order", "dim", "precision",
+          "interaction", "smoothing", "integrator", "dt", "isa", "study")
+#: Always named in a title; the other fields only where they differ.
+_ALWAYS = ("case", "state", "dx", "N", "precision", "interaction")
+
+
+class Panel:
+    """Rows that belong into one panel, and the facts known about them (field -> set of values)."""
+
+    def __init__(self, rows, facts):
+        self.rows = rows
+        self.facts = facts
+
+
+def of_table(summary, table, keep=lambda row: True):
+    """Group a table's rows by the FIELDS they hold; the other facts come from matching points."""
+    points = [flat(entry) for entry in summary["points"]]
+    found = []
+    for key, rows in _group(filter(keep, summary[table]), FIELDS):
+        same = [point for point in points if all(value is None or point.get(field) == value
+                                                 for field, value in zip(FIELDS, key))]
+        found.append(Panel(rows, _facts(same or rows)))
+    return found
+
+
+def of_points(summary, keep=lambda entry: True):
+    """Group the summary's points by everything but backend, M and threads."""
+    entries = [{**entry, **flat(entry)} for entry in summary["points"] if keep(entry)]
+    return [Panel(rows, _facts(rows)) for _, rows in _group(entries, FIELDS)]
+
+
+def flat(entry):
+    """Return the point of an entry together with its study."""
+    return {**entry["point"], "study": entry.get("study")}
+
+
+def titles(panels):
+    """Return (text common to all panels, [text of what differs, one per panel])."""
+    worded = [_words(panel.facts) for panel in panels]
+    common, own = [], [[] for _ in panels]
+    for field in worded[0]:
+        texts = [words[field] for words in worded]
+        if len(set(texts)) > 1:
+            for texts_of_panel, text in zip(own, texts):
+                texts_of_panel.append(text)
+        elif texts[0] and (field in _ALWAYS or " / " in texts[0]):
+            common.append(texts[0])
+    return ", ".join(common), [", ".join(filter(None, texts)) for texts in own]
+
+
+def m_text(m):
+    """Return "M=6", or "no M" for a point without a grid."""
+    return "no M" if m is None else f"M={m}"
+
+
+def split(rows, *fields):
+    """Return [(value or values of the fields, rows)] sorted by these values."""
+    groups = _group(rows, fields)
+    return [(key[0] if len(fields) == 1 else key, members) for key, members in groups]
+
+
+def _group(rows, fields):
+    groups = {}
+    for row in rows:
+        groups.setdefault(tuple(row.get(field) for field in fields), []).append(row)
+    seen = [list(dict.fromkeys(key[at] for key in groups)) for at in range(len(fields))]
+
+    def rank(key):
+        """Numbers by size, words in the order of the summary, null first."""
+        return [(0, 0) if value is None else (1, seen[at].index(value)) if isinstance(value, str)
+                else (2, value) for at, value in enumerate(key)]
+
+    return [(key, groups[key]) for key in sorted(groups, key=rank)]
+
+
+def _facts(rows):
+    facts = {field: {row.get(field) for row in rows} - {None} for field in FIELDS}
+    facts["N"] = {(row["n_fluid"], row["n_boundary"]) for row in rows if "n_fluid" in row}
+    return facts
+
+
+def _words(facts):
+    """Return {field: text} in the order of a title."""
+    forms = {
+        "case": str, "state": str, "dx": lambda v: f"dx = {v:g} m", "N": _particles,
+        "precision": str, "interaction": str, "dim": lambda v: f"{v}D",
+        "H": lambda v: f"H = {v:g} m",
+        "order": lambda v: f"order {v}", "smoothing": str, "integrator": str,
+        "dt": lambda v: f"dt = {v:g} s", "isa": lambda v: f"isa {v}",
+        "study": lambda v: f"study {v}",
+    }
+    return {field: " / ".join(form(value) for value in sorted(facts[field]))
+            for field, form in forms.items()}
+
+
+def _particles(counts):
+    fluid, boundary = (f"{count:,}".replace(",", " ") for count in counts)
+    return f"N = {fluid} fluid" + (f" + {boundary} boundary particles" if counts[1] else
+                                   " particles")

@@ -1,0 +1,80 @@
+"""Where the time of a step goes: stacked bars of the phases, one bar per measured point."""
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
+
+import layout
+import panels
+import style
+from summary import NoData
+
+NAME = "phase_split"
+_BAR = 0.2  # inches per bar
+
+
+def draw(summary):
+    """Return the figure, or raise NoData. Per state (case, dx, ...) one panel per M."""
+    found = panels.of_points(summary, lambda entry: any(
+        median(entry, phase) is not None for phase, _, _ in style.PHASES))
+    if not found:
+        raise NoData('no entry of "points" has the median of a phase')
+    common, own = panels.titles(found)
+    split = [panels.split(panel.rows, "M") for panel in found]
+    bars = [sorted({(row["backend"], row["threads"]) for row in panel.rows}, key=_rank)
+            for panel in found]
+    places = layout.arrange(split)
+    heights = {}
+    for group, some in zip(places, bars):
+        for row, _ in group:
+            heights[row] = max(heights.get(row, 0), 0.15 + _BAR * len(some))
+    width = 2.9
+    page = layout.Sheet(summary, "Phases of a step (medians)", common,
+                        [p for group in places for p in group], width, heights,
+                        (1.95, 0.25), head=0.3)
+    for columns, names, text, group in zip(split, bars, own, places):
+        axes_of_group = [page.axes[place] for place in group]
+        for (m, rows), axes in zip(columns, axes_of_group):
+            _panel(axes, rows, names)
+            layout.panel_title(axes, ", ".join(filter(None, (text, panels.m_text(m)))), width)
+        right = max(axes.get_xlim()[1] for axes in axes_of_group)
+        for axes in axes_of_group:
+            axes.set_xlim(0, right)
+    handles = [Patch(facecolor=colour, label=name)
+               for _, name, colour in style.PHASES]
+    mark = page.figure.axes[0].plot([], [], color=style.INK, marker="|", linestyle="",
+                                    markersize=9, markeredgewidth=1.6, label="whole step")
+    page.figure.legend(handles=handles + mark, loc="upper left", ncol=len(handles) + 1,
+                       frameon=False, bbox_to_anchor=(0.1 / page.size[0],
+                                                      1 - (page.head - 0.42) / page.size[1]),
+                       borderaxespad=0, handlelength=1.1, columnspacing=1.4)
+    return page.figure
+
+
+def median(entry, phase):
+    """Return the median of a phase in seconds, or None."""
+    return entry["phases"].get(phase, {}).get("median")
+
+
+def _rank(bar):
+    return style.backend_rank(bar[0]), bar[1]
+
+
+def _panel(axes, rows, names):
+    """Draw one bar per (backend, threads) in `names`; a bar that was not measured stays empty."""
+    for row in rows:
+        at, left = names.index((row["backend"], row["threads"])), 0.0
+        for phase, name, colour in style.PHASES:
+            if median(row, phase) is not None:
+                length = 1e3 * median(row, phase)
+                axes.barh(at, length, left=left, height=0.72, color=colour,
+                          label=f"{row['backend']} t={row['threads']} {name}")
+                left += length
+        if median(row, "total_s") is not None:
+            axes.plot([1e3 * median(row, "total_s")], [at], color=style.INK, marker="|",
+                      markersize=9, markeredgewidth=1.6, linestyle="",
+                      label=f"{row['backend']} t={row['threads']} total")
+    axes.set_yticks(range(len(names)), [f"{backend}, {threads} thr." for backend, threads in names])
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    axes.tick_params(axis="y", length=0)
+    axes.xaxis.set_major_locator(MaxNLocator(4))
+    axes.grid(False, axis="y")
+    axes.set_xlabel("time per step [ms]")

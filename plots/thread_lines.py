@@ -1,0 +1,74 @@
+"""Lines against the number of threads: what speedup, efficiency and algorithm speedup share."""
+import axes_ticks
+import labels
+import layout
+import panels
+import style
+
+
+class Line:
+    """One line: rows of one backend and M, sorted by threads, without rows whose value is null."""
+
+    def __init__(self, rows, value, text):
+        self.rows = sorted((row for row in rows if row[value] is not None),
+                           key=lambda row: row["threads"])
+        self.value, self.text = value, text
+        self.backend, self.m = rows[0]["backend"], rows[0]["M"]
+        self.name = f"{self.backend} {panels.m_text(self.m)}"
+
+    def draw(self, axes):
+        """Draw the line, named "backend M=m", and its intervals where they are known."""
+        x = [row["threads"] for row in self.rows]
+        y = [row[self.value] for row in self.rows]
+        look = {"color": style.colour(self.backend), "linestyle": style.line(self.backend),
+                "marker": style.marker(self.m), "markeredgecolor": style.INK,
+                "markeredgewidth": 0.6, "markersize": 5.5, "linewidth": 1.8, "zorder": 3}
+        axes.plot(x, y, label=self.name, **look)
+        known = self.known()
+        if known:
+            values = [row[self.value] for row in known]
+            reach = [[max(value - row["low"], 0) for value, row in zip(values, known)],
+                     [max(row["high"] - value, 0) for value, row in zip(values, known)]]
+            axes.errorbar([row["threads"] for row in known], values, yerr=reach, fmt="none",
+                          ecolor=look["color"], elinewidth=1.1, capsize=3.5,
+                          label=f"interval {self.name}")
+
+    def known(self):
+        """Return the rows with an interval; the summary holds them for speedups only."""
+        return [row for row in self.rows if self.value == "speedup"
+                and row["low"] is not None and row["high"] is not None]
+
+    def end(self):
+        """Return what labels.at_ends needs."""
+        last = self.rows[-1]
+        return last["threads"], last[self.value], self.text, style.colour(self.backend)
+
+
+def sheet(summary, title, groups, value_axis, reference):
+    """Draw groups of panels and return the figure.
+
+    groups: per panels.Panel a list of (column text, [Line]); value_axis(axes, lines, counts) sets
+    the y axis; reference(axes, counts) draws a line and returns its end for the label.
+    """
+    keys = [panel for panel, _ in groups]
+    common, own = panels.titles(keys)
+    places = layout.arrange([columns for _, columns in groups])
+    lines = [line for _, columns in groups for _, some in columns for line in some]
+    if any(line.known() for line in lines):
+        common += "; error bars: low to high of the summary"
+    most = max(len(some) for _, columns in groups for _, some in columns) + 1
+    width, height = 2.9, max(2.35, most * labels.STEP + 0.1)
+    page = layout.Sheet(summary, title, common, [p for some in places for p in some], width, height,
+                        (0.62, labels.room([line.text for line in lines])))
+    counts = sorted({row["threads"] for line in lines for row in line.rows})
+    for (_, columns), text, group in zip(groups, own, places):
+        for (column, some), place in zip(columns, group):
+            axes = page.axes[place]
+            for line in some:
+                line.draw(axes)
+            axes_ticks.threads(axes, counts)
+            value_axis(axes, lines, counts)
+            ideal = reference(axes, counts)
+            layout.panel_title(axes, ", ".join(filter(None, (text, column))), width)
+            labels.at_ends(axes, [line.end() for line in some], ideal)
+    return page.figure

@@ -1,0 +1,47 @@
+"""Fixtures of the plot tests: made summaries, and a way to run plot.py as a user does."""
+import json
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+PLOTS = pathlib.Path(__file__).resolve().parents[2] / "plots"
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(PLOTS), str(pathlib.Path(__file__).resolve().parent)]
+
+import made_summary  # noqa: E402  (needs the path above)
+import style  # noqa: E402
+
+MADE = {"two_threads": made_summary.make(),
+        "sixteen_threads": made_summary.make((1, 2, 4, 8, 16)),
+        "one_panel": made_summary.make(states=("rest",), ms=(6,), intervals=False)}
+
+
+@pytest.fixture(params=MADE)
+def made(request):
+    """Each made summary in turn."""
+    style.apply()
+    return MADE[request.param]
+
+
+@pytest.fixture
+def two():
+    """A fresh small summary that a test may change."""
+    style.apply()
+    return made_summary.make(states=("rest",), ms=(6, 7))
+
+
+@pytest.fixture
+def run(tmp_path):
+    """Run plot.py on a summary (dict or path); return the finished process and its out folder."""
+    def call(summary, *options, env=None):
+        path = summary
+        if isinstance(summary, dict):
+            path = tmp_path / "summary.json"
+            path.write_text(json.dumps(summary))
+        out = tmp_path / "out"
+        done = subprocess.run([sys.executable, "-B", str(PLOTS / "plot.py"), str(path), "--out",
+                               str(out), *options], capture_output=True, text=True, env=env)
+        return done, out
+    return call

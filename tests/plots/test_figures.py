@@ -1,0 +1,131 @@
+"""What each figure draws equals what the summary holds."""
+import pytest
+
+import algorithm_speedup
+import artists
+import efficiency
+import ladder
+import m_comparison
+import phase_split
+import speedup
+import style
+
+MODULES = (speedup, efficiency, algorithm_speedup, m_comparison, phase_split, ladder)
+WIDE = [module for module in MODULES if module is not phase_split]
+
+
+_drawn = {}
+
+
+def drawn_by(module, made):
+    """Draw once what several tests read."""
+    key = module.NAME, id(made)
+    if key not in _drawn:
+        _drawn[key] = module.draw(made)
+    return _drawn[key]
+
+
+def title(made, state, rest):
+    """Return a panel's title: the state is named where there are several."""
+    several = len({entry["point"]["state"] for entry in made["points"]}) > 1
+    return f"{state}, {rest}" if several else rest
+
+
+@pytest.mark.parametrize("module, value", [(speedup, "speedup"), (efficiency, "efficiency")])
+def test_speedup_and_efficiency_draw_the_table(made, module, value):
+    wanted, bars = {}, {}
+    for row in made["speedup"]:
+        if not row["backend"].endswith(("_omp", "_tbb")):
+            continue
+        panel, label = title(made, row["state"], f"M={row['M']}"), f"{row['backend']} M={row['M']}"
+        wanted.setdefault(panel, {}).setdefault(label, []).append((row["threads"], row[value]))
+        if row["low"] is not None and module is speedup:
+            bars.setdefault(panel, {}).setdefault(label, []).append(
+                (row["threads"], pytest.approx(row["low"]), pytest.approx(row["high"])))
+    drawn = artists.panels(drawn_by(module, made))
+    assert {name: artists.lines(axes) for name, axes in drawn.items()} == wanted
+    assert {name: artists.intervals(axes) for name, axes in drawn.items()
+            if artists.intervals(axes)} == bars
+
+
+def test_algorithm_speedup_draws_the_table_and_names_the_base(made):
+    wanted = {}
+    for row in made["algorithm_speedup"]:
+        panel = title(made, row["state"], f"base {row['base_backend']} M={row['base_M']}")
+        wanted.setdefault(panel, {}).setdefault(f"{row['backend']} M={row['M']}", []).append(
+            (row["threads"], row["speedup"]))
+    drawn = artists.panels(drawn_by(algorithm_speedup, made))
+    assert {name: artists.lines(axes) for name, axes in drawn.items()} == wanted
+
+
+def test_m_comparison_draws_the_table(made):
+    wanted = {}
+    for row in made["m_comparison"]:
+        threads = row["threads"]
+        fields = {"total_s": f"{threads} thread{'s' * (threads > 1)}"}
+        if threads == 1:
+            fields.update(pairs_tested="candidate tests", useful_pair_ratio="useful-pair ratio",
+                          cells_nonempty="non-empty cells")
+        for field, name in fields.items():
+            wanted.setdefault(title(made, row["state"], name), {}).setdefault(
+                row["backend"], []).append((row["M"], row[field]))
+    drawn = artists.panels(drawn_by(m_comparison, made))
+    assert {name: artists.lines(axes) for name, axes in drawn.items()} == wanted
+
+
+def test_phase_split_stacks_the_medians(made):
+    drawn = artists.panels(drawn_by(phase_split, made))
+    for entry in made["points"]:
+        point, phases = entry["point"], entry["phases"]
+        axes = drawn[title(made, point["state"], f"M={point['M']}")]
+        name, left = f"{point['backend']} t={point['threads']}", 0
+        bars = {bars.get_label(): bars[0] for bars in axes.containers}
+        for field, phase, _ in style.PHASES:
+            bar = bars[f"{name} {phase}"]
+            assert bar.get_width() == pytest.approx(1e3 * phases[field]["median"])
+            assert bar.get_x() == pytest.approx(left)
+            left += bar.get_width()
+        assert artists.lines(axes)[f"{name} total"][0][0] == 1e3 * phases["total_s"]["median"]
+
+
+def test_ladder_shows_each_backend_at_its_best_m_sorted(made):
+    figure = drawn_by(ladder, made)
+    for name, axes in artists.panels(figure).items():
+        state = "collapsed" if "collapsed" in name else "rest"
+        rows = [(entry["point"], entry["ns_per_pair"]) for entry in made["points"]
+                if entry["point"]["state"] == state]
+        threads = (lambda b: 1) if "1 thread" in name else (
+            lambda b: max(p["threads"] for p, _ in rows if p["backend"] == b))
+        wanted = [min((ns, backend, p["M"]) for p, ns in rows if p["backend"] == backend
+                      and p["threads"] == threads(backend)) for backend in style.BACKENDS]
+        drawn = [(bars[0].get_width(), *bars.get_label().split(" M=")) for bars in axes.containers]
+        assert drawn == [(ns, backend, str(m)) for ns, backend, m in sorted(wanted)]
+
+
+def test_a_backend_has_one_colour_in_all_figures(made):
+    seen = {}
+    for module in WIDE:
+        for backend, some in artists.colours(drawn_by(module, made)).items():
+            seen.setdefault(backend, set()).update(some)
+    assert seen == {backend: {colour.upper()} for backend, colour in style.BACKENDS.items()}
+    assert len(set(style.BACKENDS.values())) == len(style.BACKENDS)
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda module: module.NAME)
+def test_no_text_overlaps_another_or_leaves_the_page(made, module):
+    assert artists.overlaps(drawn_by(module, made)) == []
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda module: module.NAME)
+def test_figures_say_of_what_and_on_what(made, module):
+    text = "\n".join(text.get_text() for text in drawn_by(module, made).texts)
+    for part in ("dam_break", "dx = 0.00594 m", "1 000 000 fluid + 1 014 966 boundary", "double",
+                 "Example CPU 9000", "GNU 12.2.0", "git abc1234", "Caveat: "):
+        assert part in text.replace("\n", " ")
+
+
+def test_thread_axes_are_whole_and_logarithmic_from_four_threads(made):
+    counts = sorted({row["threads"] for row in made["speedup"]})
+    for axes in drawn_by(speedup, made).axes:
+        assert list(axes.get_xticks()) == counts
+        assert axes.get_xscale() == ("log" if counts[-1] >= 4 else "linear")

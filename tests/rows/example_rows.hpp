@@ -1,0 +1,82 @@
+#pragma once
+
+#include "harness/rows/row.hpp"
+
+/// One row of every kind, with every field set to something that no default equals.
+namespace pairsum::harness::example {
+
+inline environment_row environment() {
+  environment_row e;
+  e.study = "talk";
+  e.utc = "2026-11-22T15:30:00.123Z";
+  e.environment = "0123456789abcdef";
+  e.host = "node";
+  e.cpu = "some model";
+  e.caches = {{"L1d", 49152}, {"L2", 2097152}, {"L3", 272629760}};
+  e.cores = 2;
+  e.governor = "performance";
+  e.os_kernel = "Linux 6.1";
+  e.compiler = "GNU 12.2.0";
+  e.flags = "-O3";
+  e.libraries = {{"fmt", "9.1.0"}};
+  e.git = "abc1234";
+  e.dirty = true;
+  e.binding = "none";
+  return e;
+}
+
+inline sample measured() {
+  sample s;
+  s.study = "talk";
+  s.round = 2;
+  s.slot = 3;
+  s.repetition = 4;
+  s.step = 5;
+  s.seed = 18446744073709551615u;
+  s.utc = "2026-11-22T15:30:01Z";
+  s.environment = "0123456789abcdef";
+  s.point.case_name = "dam_break";
+  s.point.state = "rest";
+  s.point.dx = 0.00594;
+  s.point.H = 0.01188;
+  s.point.n_fluid = 1000000;
+  s.point.n_boundary = 1014966;
+  s.point.order = "lattice";
+  s.point.dim = 2;
+  s.point.precision = "double";
+  s.point.interaction = "ferrari09";
+  s.point.smoothing = "wendland_c2";
+  s.point.integrator = "euler";
+  s.point.dt = 1e-05;
+  s.point.backend = "symmetric_omp";
+  s.point.grid = "hashed_grid";
+  s.point.M = 6;
+  s.point.threads = 2;
+  s.point.isa = "native";
+  s.phases = phases{0.1, 0.2, 0.3, 0.4, 0.0, 0.6, 1.6};
+  s.threads_busy_s = std::vector<double>{0.25, 0.5};
+  s.barrier_wait_s = std::vector<double>{0.125, 0.0};
+  s.work = work_row{262144, 11, 12, 13, 14, 15, 16, 17};
+  s.peak_rss_bytes = 123456789;
+  s.verify = verify_row{1.1e-15, 1e-14, "fedcba9876543210"};
+  return s;
+}
+
+/// A point whose verification failed.
+inline sample failed() {
+  sample s = measured();
+  s.phases.reset();
+  s.threads_busy_s.reset();
+  s.barrier_wait_s.reset();
+  s.work.reset();
+  s.peak_rss_bytes.reset();
+  s.verify = verify_row{0.5, 1e-14, std::nullopt};
+  s.error = "particle 7: relative error 0.5 above its bound 1e-14";
+  return s;
+}
+
+inline void_row voided() {
+  return void_row{"talk", "2026-11-22T15:30:02.5Z", 2, "the round was not finished"};
+}
+
+}  // namespace pairsum::harness::example

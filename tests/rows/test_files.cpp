@@ -1,0 +1,202 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "harness/rows/reader.hpp"
+#include "harness/rows/writer.hpp"
+#include "tests/rows/example_rows.hpp"
+#include "tests/rows/scratch.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+class rows_files : public scratch {
+ protected:
+  std::filesystem::path write_example(const std::string& name = "rows.jsonl") const {
+    row_writer writer(file(name));
+    writer.write(example::environment());
+    writer.write(example::measured());
+    writer.write(example::failed());
+    writer.write(example::voided());
+    return file(name);
+  }
+};
+
+TEST_F(rows_files, what_was_written_is_read) {
+  const rows_file rows = read_rows(write_example("a/new/folder/rows.jsonl"));
+  ASSERT_EQ(rows.samples.size(), 2u);
+  ASSERT_EQ(rows.environments.size(), 1u);
+  ASSERT_EQ(rows.voids.size(), 1u);
+  EXPECT_EQ(rows.samples[0], example::measured());
+  EXPECT_EQ(rows.samples[1], example::failed());
+  EXPECT_EQ(rows.environments[0], example::environment());
+  EXPECT_EQ(rows.voids[0], example::voided());
+}
+
+TEST_F(rows_files, appending_keeps_the_rows) {
+  const auto path = write_example();
+  const std::string before = get(path);
+  row_writer(path).write(example::measured());
+  EXPECT_EQ(get(path), before + format_row(example::measured()) + "\n");
+  EXPECT_EQ(read_rows(path).samples.size(), 3u);
+}
+
+TEST_F(rows_files, last_round_counts_voided_rounds) {
+  EXPECT_EQ(last_round(file("none.jsonl")), 0);
+  EXPECT_EQ(last_round(put("empty.jsonl", "")), 0);
+  const auto path = write_example();
+  EXPECT_EQ(last_round(path), 2);
+  void_row v = example::voided();
+  v.round = 5;
+  row_writer(path).write(v);
+  EXPECT_EQ(last_round(path), 5);
+}
+
+TEST_F(rows_files, voided_rounds_are_no_valid_samples) {
+  const auto path = file("rows.jsonl");
+  row_writer writer(path);
+  writer.write(example::environment());
+  sample s = example::measured();
+  for (int round = 1; round <= 3; ++round) {
+    s.round = round;
+    writer.write(s);
+  }
+  s.round = 2;
+  s.study = "another";
+  writer.write(s);
+  writer.write(example::voided());  // study talk, round 2
+  const rows_file rows = read_rows(path);
+  EXPECT_EQ(rows.samples.size(), 4u);
+  const std::vector<sample> valid = rows.valid_samples();
+  ASSERT_EQ(valid.size(), 3u);
+  EXPECT_EQ(valid[0].round, 1);
+  EXPECT_EQ(valid[1].round, 3);
+  EXPECT_EQ(valid[2].study, "another");
+}
+
+TEST_F(rows_files, a_cut_last_row_is_reported_and_the_rows_before_it_are_readable) {
+  const std::string whole = get(write_example());
+  const std::size_t last = whole.rfind('\n', whole.size() - 2) + 1;
+  for (std::size_t length = last + 1; length < whole.size(); ++length) {
+    const auto path = put("cut.jsonl", whole.substr(0, length));
+    const std::string what = message_of([&] { read_rows(path); });
+    EXPECT_EQ(what.find(path.string() + ":4: the last line is cut"), 0u) << what;
+    EXPECT_CONTAINS(what, "3 whole rows before it");
+    EXPECT_EQ(message_of([&] { row_writer writer(path); }), what);
+    const rows_file rows = read_rows(path, cut_line::drop);
+    EXPECT_TRUE(rows.last_line_cut);
+    EXPECT_EQ(rows.size(), 3u);
+  }
+  EXPECT_EQ(read_rows(put("cut.jsonl", whole.substr(0, last))).size(), 3u);
+}
+
+TEST_F(rows_files, a_first_row_that_is_cut_is_told_from_a_foreign_file) {
+  for (const row& r : {row(example::environment()), row(example::voided())}) {
+    const std::string line = format_row(r);
+    for (std::size_t length = 2; length <= line.size(); ++length) {
+      const auto path = put("cut.jsonl", line.substr(0, length));
+      EXPECT_CONTAINS(message_of([&] { read_rows(path); }), ":1: the last line is cut");
+    }
+  }
+}
+
+TEST_F(rows_files, a_last_line_with_cut_json_and_a_newline_is_cut) {
+  const auto path = write_example();
+  const auto cut = put("cut.jsonl", get(path) + "{\"kind\":\"sam\n");
+  EXPECT_CONTAINS(message_of([&] { read_rows(cut); }), ":5: the last line is cut");
+  EXPECT_EQ(read_rows(cut, cut_line::drop).size(), 4u);
+}
+
+TEST_F(rows_files, a_killed_writer_leaves_whole_rows) {
+  const auto path = file("rows.jsonl");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    row_writer writer(path);
+    writer.write(example::environment());
+    while (true) writer.write(example::measured());
+  }
+  while (!std::filesystem::exists(path) || std::filesystem::file_size(path) < 20000)
+    ::usleep(1000);
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  EXPECT_GT(read_rows(path).samples.size(), 2u);
+}
+
+TEST_F(rows_files, wrong_rows_name_file_line_and_key) {
+  const auto path = write_example();
+  nlohmann::json bad = nlohmann::json::parse(format_row(example::measured()));
+  bad["phases"]["sum_s"] = "slow";
+  const auto wrong = put("wrong.jsonl", get(path) + bad.dump() + "\n" + get(path));
+  EXPECT_EQ(message_of([&] { read_rows(wrong); }),
+            wrong.string() + ":5: key \"phases.sum_s\" should be a number or null, is a string");
+  const auto garbage = put("garbage.jsonl", get(path) + "oops\n" + get(path));
+  EXPECT_EQ(message_of([&] { read_rows(garbage); }),
+            garbage.string() + ":5: it is no whole JSON value");
+  bad["phases"]["sum_s"] = 1;
+  std::string huge = bad.dump();
+  huge.replace(huge.find("0.00594"), 7, "1e99999");
+  const auto range = put("range.jsonl", get(path) + huge + "\n" + get(path));
+  EXPECT_CONTAINS(message_of([&] { read_rows(range); }), ":5: it holds a number out of range");
+}
+
+TEST_F(rows_files, a_sample_needs_its_environment_row_before_it) {
+  const auto path = put("rows.jsonl", format_row(example::measured()) + "\n");
+  EXPECT_CONTAINS(message_of([&] { read_rows(path); }),
+                  "key \"environment\" should name an environment row before it");
+}
+
+TEST_F(rows_files, files_that_are_no_rows_are_refused_in_one_line) {
+  const std::vector<std::string> foreign{"a,b,c\n1,2,3\n", "{\"a\":1}\n", "{\"a\":1}", "[1,2]\n",
+                                         "\n",             "{\n  \"a\": 1\n}\n", "{\"a\": [\n",
+                                         "text"};
+  for (const std::string& text : foreign) {
+    const auto path = put("foreign", text);
+    const std::string what = message_of([&] { read_rows(path); });
+    EXPECT_EQ(what.find(path.string() + ":1: this is no rows file: its first line should be"), 0u)
+        << what;
+    EXPECT_EQ(message_of([&] { row_writer writer(path); }), what);
+    EXPECT_EQ(get(path), text);
+  }
+  EXPECT_CONTAINS(message_of([&] { read_rows(put("empty", "")); }), "is empty");
+  EXPECT_CONTAINS(message_of([&] { read_rows(file("none")); }), "No such file");
+  EXPECT_CONTAINS(message_of([&] { read_rows(folder_); }), "is a folder");
+  const auto other = put("other", "{\"schema\":\"pairsum.row/9\",\"kind\":\"void\"}\n");
+  EXPECT_EQ(message_of([&] { read_rows(other); }),
+            other.string() + ":1: key \"schema\" should be \"pairsum.row/1\", is \"pairsum.row/9\"");
+}
+
+TEST_F(rows_files, places_that_cannot_be_written_are_refused_in_one_line) {
+  const auto below = put("plain", "text") / "folder" / "rows.jsonl";
+  EXPECT_CONTAINS(message_of([&] { row_writer writer(below); }),
+                  "cannot write rows to " + below.string() + ": ");
+  const std::filesystem::path proc = "/proc/pairsum/rows.jsonl";
+  EXPECT_CONTAINS(message_of([&] { row_writer writer(proc); }), "folder /proc/pairsum: ");
+  EXPECT_CONTAINS(message_of([&] { row_writer writer(folder_); }), "is a folder");
+  EXPECT_CONTAINS(message_of([&] { row_writer writer(folder_ / ""); }), "should name a file");
+}
+
+TEST_F(rows_files, a_row_that_could_not_be_read_is_not_written) {
+  const auto path = file("rows.jsonl");
+  row_writer writer(path);
+  EXPECT_CONTAINS(message_of([&] { writer.write(example::measured()); }), "no environment row");
+  writer.write(example::environment());
+  const std::string before = get(path);
+  sample s = example::measured();
+  s.point.dx = std::nan("");
+  EXPECT_CONTAINS(message_of([&] { writer.write(s); }),
+                  "the row is wrong: key \"point.dx\" should be a number, is null");
+  s = example::measured();
+  s.round = 0;
+  EXPECT_CONTAINS(message_of([&] { writer.write(s); }), "key \"round\"");
+  EXPECT_EQ(get(path), before);
+}
+
+TEST_F(rows_files, a_device_is_no_rows_file) {
+  EXPECT_CONTAINS(message_of([&] { row_writer writer("/dev/null"); }), "is no regular file");
+}
+
+}  // namespace
+}  // namespace pairsum::harness

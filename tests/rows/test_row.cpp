@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "harness/rows/row.hpp"
+#include "tests/rows/example_rows.hpp"
+#include "tests/rows/scratch.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+using nlohmann::json;
+
+template <class T>
+T round_trip(const T& value) {
+  return std::get<T>(parse_row(json::parse(format_row(value))));
+}
+
+TEST(row, every_kind_survives_a_round_trip) {
+  EXPECT_EQ(round_trip(example::measured()), example::measured());
+  EXPECT_EQ(round_trip(example::failed()), example::failed());
+  EXPECT_EQ(round_trip(example::environment()), example::environment());
+  EXPECT_EQ(round_trip(example::voided()), example::voided());
+  environment_row bare = example::environment();
+  bare.governor.reset();
+  bare.caches.clear();
+  bare.libraries.clear();
+  EXPECT_EQ(round_trip(bare), bare);
+}
+
+TEST(row, nested_structs_survive_a_round_trip) {
+  const sample s = example::measured();
+  EXPECT_EQ(json(s.point).get<point>(), s.point);
+  EXPECT_EQ(json(*s.phases).get<phases>(), *s.phases);
+  EXPECT_EQ(json(*s.work).get<work_row>(), *s.work);
+  EXPECT_EQ(json(s.verify).get<verify_row>(), s.verify);
+}
+
+TEST(row, numbers_survive_bit_for_bit) {
+  sample s = example::measured();
+  s.phases->sum_s = 0.1 + 0.2;
+  s.point.dx = std::nextafter(0.00594, 1.0);
+  EXPECT_EQ(round_trip(s), s);
+}
+
+TEST(row, what_is_not_finite_is_written_as_null) {
+  sample s = example::measured();
+  s.phases->sum_s = std::nan("");
+  s.phases->zero_s = std::numeric_limits<double>::infinity();
+  s.verify.max_rel_err = -std::numeric_limits<double>::infinity();
+  s.threads_busy_s = std::vector<double>{1.0, std::nan("")};
+  const json j = json::parse(format_row(s));
+  EXPECT_TRUE(j["phases"]["sum_s"].is_null());
+  EXPECT_TRUE(j["phases"]["zero_s"].is_null());
+  EXPECT_TRUE(j["verify"]["max_rel_err"].is_null());
+  EXPECT_TRUE(j["threads_busy_s"].is_null());
+  EXPECT_EQ(std::get<sample>(parse_row(j)).phases->sum_s, std::nullopt);
+}
+
+TEST(row, a_row_is_one_line) {
+  void_row v = example::voided();
+  v.reason = "two\nlines and a bad byte \xff";
+  EXPECT_EQ(format_row(v).find('\n'), std::string::npos);
+}
+
+std::string rejection(const row& value, const std::function<void(json&)>& change) {
+  json j = json::parse(format_row(value));
+  change(j);
+  return message_of([&j] { parse_row(j); });
+}
+
+TEST(row, every_missing_key_is_named) {
+  const json whole = json::parse(format_row(example::measured()));
+  for (const auto& item : whole.items()) {
+    const std::string key = item.key();
+    EXPECT_CONTAINS(rejection(example::measured(), [&](json& j) { j.erase(key); }),
+                    "key \"" + key + "\" is missing");
+    if (!item.value().is_object()) continue;
+    for (const auto& inner : item.value().items()) {
+      const std::string inner_key = inner.key();
+      EXPECT_EQ(rejection(example::measured(), [&](json& j) { j[key].erase(inner_key); }),
+                "key \"" + key + "." + inner_key + "\" is missing");
+    }
+  }
+  for (const auto& item : json::parse(format_row(example::environment())).items()) {
+    const std::string key = item.key();
+    EXPECT_EQ(rejection(example::environment(), [&](json& j) { j.erase(key); }),
+              "key \"" + key + "\" is missing");
+  }
+  for (const auto& item : json::parse(format_row(example::voided())).items()) {
+    const std::string key = item.key();
+    EXPECT_EQ(rejection(example::voided(), [&](json& j) { j.erase(key); }),
+              "key \"" + key + "\" is missing");
+  }
+}
+
+TEST(row, every_key_of_another_type_is_named) {
+  for (const row& value : {row(example::measured()), row(example::environment()),
+                           row(example::voided()), row(example::failed())}) {
+    const json whole = json::parse(format_row(value));
+    for (const auto& item : whole.items()) {
+      const std::string key = item.key();
+      const json wrong = item.value().is_string() ? json(1.5) : json("text");
+      EXPECT_CONTAINS(rejection(value, [&](json& j) { j[key] = wrong; }),
+                      "key \"" + key + "\" should be ");
+      if (!item.value().is_object()) continue;
+      for (const auto& inner : item.value().items()) {
+        const std::string name = inner.key();
+        const json wrong_inner = inner.value().is_string() ? json(1.5) : json("text");
+        EXPECT_CONTAINS(rejection(value, [&](json& j) { j[key][name] = wrong_inner; }),
+                        "key \"" + key + "." + name + "\" should be ");
+      }
+    }
+  }
+}
+
+TEST(row, messages_say_what_is_right_and_what_is_there) {
+  const sample s = example::measured();
+  EXPECT_EQ(rejection(s, [](json& j) { j["phases"]["sum_s"] = "0.1"; }),
+            "key \"phases.sum_s\" should be a number or null, is a string");
+  EXPECT_EQ(rejection(s, [](json& j) { j["phases"]["sum_s"] = -1; }),
+            "key \"phases.sum_s\" should be a number >= 0 or null, is the number -1");
+  EXPECT_EQ(rejection(s, [](json& j) { j["round"] = 0; }),
+            "key \"round\" should be an integer >= 1, is the number 0");
+  EXPECT_EQ(rejection(s, [](json& j) { j["step"] = 1.5; }),
+            "key \"step\" should be an integer >= 1, is the number 1.5");
+  EXPECT_EQ(rejection(s, [](json& j) { j["work"]["cells"] = -3; }),
+            "key \"work.cells\" should be an integer >= 0, is the number -3");
+  EXPECT_EQ(rejection(s, [](json& j) { j["point"] = json::array(); }),
+            "key \"point\" should be an object, is an array");
+  EXPECT_EQ(rejection(s, [](json& j) { j["schema"] = "pairsum.row/2"; }),
+            "key \"schema\" should be \"pairsum.row/1\", is \"pairsum.row/2\"");
+  EXPECT_EQ(rejection(s, [](json& j) { j["kind"] = "samples"; }),
+            "key \"kind\" should be \"sample\", \"environment\" or \"void\", is \"samples\"");
+  EXPECT_EQ(rejection(s, [](json& j) { j["verify"]["fingerprint"] = "xyz"; }),
+            "key \"verify.fingerprint\" should be 16 hex digits, is \"xyz\"");
+  EXPECT_EQ(rejection(s, [](json& j) { j["utc"] = "22.11.2026"; }),
+            "key \"utc\" should be a UTC time like 2026-11-22T15:30:00.123Z, is \"22.11.2026\"");
+  EXPECT_EQ(rejection(s, [](json& j) { j["threads_busy_s"] = {1.0, "a"}; }),
+            "key \"threads_busy_s\" should be an array of numbers >= 0 or null, is an array");
+}
+
+TEST(row, unknown_keys_are_named) {
+  EXPECT_EQ(rejection(example::measured(), [](json& j) { j["note"] = 1; }),
+            "key \"note\" is not known in this kind of row");
+  EXPECT_EQ(rejection(example::measured(), [](json& j) { j["work"]["pairs"] = 1; }),
+            "key \"work.pairs\" is not known in this kind of row");
+  EXPECT_EQ(rejection(example::environment(), [](json& j) { j["libraries"]["x"] = 1; }),
+            "key \"libraries.x\" should be a string, is the number 1");
+}
+
+TEST(row, phases_are_null_exactly_with_an_error) {
+  EXPECT_EQ(rejection(example::measured(), [](json& j) { j["phases"] = nullptr; }),
+            "key \"phases\" should be an object in a row without \"error\", is null");
+  EXPECT_EQ(rejection(example::measured(), [](json& j) { j["error"] = "wrong"; }),
+            "key \"phases\" should be null in a row with \"error\", is an object");
+}
+
+}  // namespace
+}  // namespace pairsum::harness
