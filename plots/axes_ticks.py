@@ -1,13 +1,12 @@
 """Ticks that read as plain numbers."""
-from matplotlib.ticker import (EngFormatter, FixedLocator, FuncFormatter, LogLocator, NullLocator,
-                               ScalarFormatter)
+from matplotlib.ticker import EngFormatter, FixedLocator, FuncFormatter, LogLocator, NullLocator
 
 
 def whole(axis, values):
     """Tick an axis at these values only, written as plain numbers."""
     axis.set_major_locator(FixedLocator(sorted(values)))
     axis.set_minor_locator(NullLocator())
-    axis.set_major_formatter(ScalarFormatter())
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
 
 def threads(axes, counts):

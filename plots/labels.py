@@ -17,6 +17,11 @@ def room(texts):
     return LEADER + 0.15 + max((text_width(text, style.SMALL) for text in set(texts)), default=0)
 
 
+def tick_room(texts):
+    """Return the inches that the longest of the tick labels needs left of a panel."""
+    return 0.3 + max(text_width(text, style.SMALL + 0.5) for text in set(texts))
+
+
 def spread(wanted, step, low, high):
     """Move sorted positions apart to at least `step`, as little as possible, within low..high.
 

@@ -25,17 +25,15 @@ def draw(summary):
     places = layout.arrange([columns for _, columns in groups], most=2)
     rows = max(len(some) for _, columns in groups for _, some in columns)
     names = [_name(row) for _, columns in groups for _, some in columns for row in some]
-    width = 3.1
+    titles = {place: panels.joined(text, column) for (_, columns), text, group
+              in zip(groups, own, places) for (column, _), place in zip(columns, group)}
     page = layout.Sheet(summary, "Time per interacting pair, each backend at its best M", common,
-                        [p for group in places for p in group], width, 0.15 + _BAR * rows,
-                        (0.3 + max(labels.text_width(name, style.SMALL + 0.5) for name in names),
-                         0.45))
-    for (_, columns), text, group in zip(groups, own, places):
+                        titles, 3.1, 0.15 + _BAR * rows,
+                        (labels.tick_room(names), 0.45))
+    for (_, columns), group in zip(groups, places):
         right = max(row["ns_per_pair"] for _, some in columns for row in some)
-        for (column, some), place in zip(columns, group):
+        for (_, some), place in zip(columns, group):
             _panel(page.axes[place], some, right)
-            layout.panel_title(page.axes[place], ", ".join(filter(None, (text, column))),
-                               width + 0.45)
     return page.figure
 
 

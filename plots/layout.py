@@ -30,17 +30,20 @@ def _flow(count, most, first):
 
 
 class Sheet:
-    """A figure with panels of one size (inches) at given places; `gaps` are left and right of each.
+    """A figure with panels of one width (inches); `gaps` are left and right of each.
 
-    heights: {row: inches}, or one number for all rows.
+    titles: {(row, column): title of the panel there}; heights: {row: inches}, or one for all rows.
     """
 
-    def __init__(self, summary, title, subtitle, places, width, heights, gaps, head=0.0):
-        rows = 1 + max(row for row, _ in places)
-        columns = 1 + max(column for _, column in places)
+    def __init__(self, summary, title, subtitle, titles, width, heights, gaps, head=0.0):
+        rows = 1 + max(row for row, _ in titles)
+        columns = 1 + max(column for _, column in titles)
         if not isinstance(heights, dict):
             heights = {row: heights for row in range(rows)}
-        left, right, above, below = gaps[0], gaps[1], 0.42, 0.62
+        (left, right), below = gaps, 0.62
+        wrapped = {place: textwrap.wrap(text, int((width + 0.5 * right) * 10.5))
+                   for place, text in titles.items()}
+        above = 0.26 + 0.165 * max(map(len, wrapped.values()))
         self.size = [max(7.6, columns * (left + width + right) + 0.15), 0.0]
         wrap = int(self.size[0] * 12.2)
         title = textwrap.wrap(title, int(self.size[0] * 8.2))
@@ -52,10 +55,11 @@ class Sheet:
         self.size[1] = head + foot + sum(heights.values()) + rows * (above + below)
         self.figure = Figure(figsize=self.size)
         self.axes = {}
-        for row, column in places:
+        for (row, column), lines in wrapped.items():
             top = head + above + sum(heights[r] + above + below for r in range(row))
             self.axes[row, column] = self._panel(0.1 + column * (left + width + right) + left,
                                                  top, width, heights[row])
+            self.axes[row, column].set_title("\n".join(lines), pad=7)
         self._text(0.16, 0.20, "\n".join(title), fontsize=style.TITLE, fontweight="bold", va="top",
                    linespacing=1.3)
         self._text(0.16, under + 0.19, "\n".join(subtitle), fontsize=style.SIZE, va="top",
@@ -70,11 +74,6 @@ class Sheet:
 
     def _text(self, x, top, text, **options):
         self.figure.text(x / self.size[0], 1 - top / self.size[1], text, **options)
-
-
-def panel_title(axes, text, width):
-    """Title a panel, wrapped to its width in inches."""
-    axes.set_title("\n".join(textwrap.wrap(text, int(width * 10.5))), pad=7)
 
 
 def footer_lines(summary, wrap):

@@ -53,15 +53,15 @@ def _sheet(summary, groups):
         places = layout.arrange(halves)
     names = [backend for half in halves for item in half for backend, _ in item[-1]]
     most = max(len(item[-1]) for half in halves for item in half)
-    width, height = 2.9, max(2.35, most * labels.STEP + 0.1)
+    titles = {place: panels.joined(text, item[1]) for half, text, group
+              in zip(halves, texts, places) for item, place in zip(half, group)}
     page = layout.Sheet(summary, "Time per step and work of the cell search against M (grid of "
                         "$\\mathbf{2^{dM}}$ hashed cells)", common,
-                        [place for some in places for place in some], width, height,
+                        titles, 2.9, max(2.35, most * labels.STEP + 0.1),
                         (0.78, labels.room(names)))
-    for half, text, group in zip(halves, texts, places):
+    for half, group in zip(halves, places):
         for item, place in zip(half, group):
             _panel(page.axes[place], item)
-            layout.panel_title(page.axes[place], ", ".join(filter(None, (text, item[1]))), width)
     return page.figure
 
 

@@ -3,6 +3,7 @@
 #: Fields that tell panels apart. Points hold all of them, tables the first three and maybe more.
 FIELDS = ("case", "state", "dx", "n_fluid", "n_boundary", "H", "order", "dim", "precision",
           "interaction", "smoothing", "integrator", "dt", "isa", "study")
+_NO_BREAK = "\N{NO-BREAK SPACE}"
 #: Always named in a title; the other fields only where they differ.
 _ALWAYS = ("case", "state", "dx", "N", "precision", "interaction")
 
@@ -48,7 +49,12 @@ def titles(panels):
                 texts_of_panel.append(text)
         elif texts[0] and (field in _ALWAYS or " / " in texts[0]):
             common.append(texts[0])
-    return ", ".join(common), [", ".join(filter(None, texts)) for texts in own]
+    return joined(*common), [joined(*texts) for texts in own]
+
+
+def joined(*texts):
+    """Join the texts that are not empty with commas."""
+    return ", ".join(filter(None, texts))
 
 
 def m_text(m):
@@ -92,11 +98,10 @@ def _words(facts):
         "dt": lambda v: f"dt = {v:g} s", "isa": lambda v: f"isa {v}",
         "study": lambda v: f"study {v}",
     }
-    return {field: " / ".join(form(value) for value in sorted(facts[field]))
+    return {field: " / ".join(form(value).replace(" ", _NO_BREAK) for value in sorted(facts[field]))
             for field, form in forms.items()}
 
 
 def _particles(counts):
     fluid, boundary = (f"{count:,}".replace(",", " ") for count in counts)
-    return f"N = {fluid} fluid" + (f" + {boundary} boundary particles" if counts[1] else
-                                   " particles")
+    return f"N = {fluid} fluid" + (f" + {boundary} boundary" if counts[1] else "")

@@ -2,6 +2,7 @@
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
+import labels
 import layout
 import panels
 import style
@@ -26,15 +27,15 @@ def draw(summary):
     for group, some in zip(places, bars):
         for row, _ in group:
             heights[row] = max(heights.get(row, 0), 0.15 + _BAR * len(some))
-    width = 2.9
-    page = layout.Sheet(summary, "Phases of a step (medians)", common,
-                        [p for group in places for p in group], width, heights,
-                        (1.95, 0.25), head=0.3)
-    for columns, names, text, group in zip(split, bars, own, places):
+    titles = {place: panels.joined(text, panels.m_text(m)) for columns, text, group
+              in zip(split, own, places) for (m, _), place in zip(columns, group)}
+    page = layout.Sheet(summary, "Phases of a step (medians)", common, titles, 2.9, heights,
+                        (labels.tick_room(_name(bar) for names in bars for bar in names), 0.25),
+                        head=0.3)
+    for columns, names, group in zip(split, bars, places):
         axes_of_group = [page.axes[place] for place in group]
-        for (m, rows), axes in zip(columns, axes_of_group):
+        for (_, rows), axes in zip(columns, axes_of_group):
             _panel(axes, rows, names)
-            layout.panel_title(axes, ", ".join(filter(None, (text, panels.m_text(m)))), width)
         right = max(axes.get_xlim()[1] for axes in axes_of_group)
         for axes in axes_of_group:
             axes.set_xlim(0, right)
@@ -58,6 +59,10 @@ def _rank(bar):
     return style.backend_rank(bar[0]), bar[1]
 
 
+def _name(bar):
+    return f"{bar[0]}, {bar[1]} thr."
+
+
 def _panel(axes, rows, names):
     """Draw one bar per (backend, threads) in `names`; a bar that was not measured stays empty."""
     for row in rows:
@@ -72,7 +77,7 @@ def _panel(axes, rows, names):
             axes.plot([1e3 * median(row, "total_s")], [at], color=style.INK, marker="|",
                       markersize=9, markeredgewidth=1.6, linestyle="",
                       label=f"{row['backend']} t={row['threads']} total")
-    axes.set_yticks(range(len(names)), [f"{backend}, {threads} thr." for backend, threads in names])
+    axes.set_yticks(range(len(names)), [_name(bar) for bar in names])
     axes.set_ylim(len(names) - 0.4, -0.6)
     axes.tick_params(axis="y", length=0)
     axes.xaxis.set_major_locator(MaxNLocator(4))

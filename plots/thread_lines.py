@@ -53,22 +53,22 @@ def sheet(summary, title, groups, value_axis, reference):
     keys = [panel for panel, _ in groups]
     common, own = panels.titles(keys)
     places = layout.arrange([columns for _, columns in groups])
+    titles = {place: panels.joined(text, column) for (_, columns), text, group
+              in zip(groups, own, places) for (column, _), place in zip(columns, group)}
     lines = [line for _, columns in groups for _, some in columns for line in some]
     if any(line.known() for line in lines):
         common += "; error bars: low to high of the summary"
     most = max(len(some) for _, columns in groups for _, some in columns) + 1
-    width, height = 2.9, max(2.35, most * labels.STEP + 0.1)
-    page = layout.Sheet(summary, title, common, [p for some in places for p in some], width, height,
+    page = layout.Sheet(summary, title, common, titles, 2.9, max(2.35, most * labels.STEP + 0.1),
                         (0.62, labels.room([line.text for line in lines])))
     counts = sorted({row["threads"] for line in lines for row in line.rows})
-    for (_, columns), text, group in zip(groups, own, places):
-        for (column, some), place in zip(columns, group):
+    for (_, columns), group in zip(groups, places):
+        for (_, some), place in zip(columns, group):
             axes = page.axes[place]
             for line in some:
                 line.draw(axes)
             axes_ticks.threads(axes, counts)
             value_axis(axes, lines, counts)
             ideal = reference(axes, counts)
-            layout.panel_title(axes, ", ".join(filter(None, (text, column))), width)
             labels.at_ends(axes, [line.end() for line in some], ideal)
     return page.figure

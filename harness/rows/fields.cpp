@@ -26,6 +26,11 @@ bool is_utc(std::string_view text) {
   return rest.size() > 1 && rest[0] == '.' && std::all_of(rest.begin() + 1, rest.end(), digit);
 }
 
+/// Whether the value is an integer >= 0; comparing the JSON value itself would wrap large ones around.
+bool is_count(const nlohmann::json& value) {
+  return value.is_number_unsigned() || (value.is_number_integer() && value.get<std::int64_t>() >= 0);
+}
+
 }  // namespace
 
 std::string describe(const nlohmann::json& value) {
@@ -89,7 +94,7 @@ std::optional<double> fields::seconds_or_null(const char* key) {
 std::optional<std::vector<double>> fields::seconds_list_or_null(const char* key) {
   const auto& value = at(key);
   if (value.is_null()) return std::nullopt;
-  const auto seconds = [](const nlohmann::json& v) { return v.is_number() && v >= 0; };
+  const auto seconds = [](const nlohmann::json& v) { return v.is_number() && v.get<double>() >= 0; };
   if (!value.is_array() || !std::all_of(value.begin(), value.end(), seconds))
     reject(key, "an array of numbers >= 0 or null");
   return value.get<std::vector<double>>();
@@ -97,22 +102,23 @@ std::optional<std::vector<double>> fields::seconds_list_or_null(const char* key)
 
 int fields::integer(const char* key, int smallest) {
   const auto& value = at(key);
-  const bool fits = value.is_number_integer() && value >= smallest &&
-                    value <= std::numeric_limits<std::int32_t>::max();
+  const auto from = static_cast<std::uint64_t>(smallest);
+  const bool fits = is_count(value) && value.get<std::uint64_t>() >= from &&
+                    value.get<std::uint64_t>() <= std::numeric_limits<std::int32_t>::max();
   if (!fits) reject(key, "an integer >= " + std::to_string(smallest));
   return value.get<int>();
 }
 
 std::uint64_t fields::count(const char* key) {
   const auto& value = at(key);
-  if (!value.is_number_integer() || value < 0) reject(key, "an integer >= 0");
+  if (!is_count(value)) reject(key, "an integer >= 0");
   return value.get<std::uint64_t>();
 }
 
 std::optional<std::uint64_t> fields::count_or_null(const char* key) {
   if (is_null(key)) return std::nullopt;
   const auto& value = at(key);
-  if (!value.is_number_integer() || value < 0) reject(key, "an integer >= 0 or null");
+  if (!is_count(value)) reject(key, "an integer >= 0 or null");
   return value.get<std::uint64_t>();
 }
 

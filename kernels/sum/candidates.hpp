@@ -55,6 +55,7 @@ class candidate_filter {
     for (const index_range& range : ranges) {
       for (std::uint32_t begin = range.begin; begin < range.end; begin += piece) {
         const std::uint32_t end = range.end - begin > piece ? begin + piece : range.end;
+#pragma GCC unroll 4
         for (std::uint32_t j = begin; j < end; ++j) {
           hits[n] = j;
           n += norm2<dim, real>(x_i - p.position(j)) < reach2;

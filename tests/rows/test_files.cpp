@@ -113,13 +113,20 @@ TEST_F(rows_files, a_last_line_with_cut_json_and_a_newline_is_cut) {
 TEST_F(rows_files, a_killed_writer_leaves_whole_rows) {
   const auto path = file("rows.jsonl");
   const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
   if (child == 0) {
-    row_writer writer(path);
-    writer.write(example::environment());
-    while (true) writer.write(example::measured());
+    try {
+      row_writer writer(path);
+      writer.write(example::environment());
+      while (true) writer.write(example::measured());
+    } catch (...) {
+      ::_exit(1);
+    }
   }
-  while (!std::filesystem::exists(path) || std::filesystem::file_size(path) < 20000)
-    ::usleep(1000);
+  const auto grown = [&path] {
+    return std::filesystem::exists(path) && std::filesystem::file_size(path) > 20000;
+  };
+  for (int i = 0; i < 10000 && !grown(); ++i) ::usleep(1000);
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
   EXPECT_GT(read_rows(path).samples.size(), 2u);
