@@ -41,7 +41,8 @@ class Sheet:
         if not isinstance(heights, dict):
             heights = {row: heights for row in range(rows)}
         (left, right), below = gaps, 0.62
-        wrapped = {place: textwrap.wrap(text, int((width + 0.5 * right) * 10.5))
+        wrapped = {place: textwrap.wrap(text, int((width + 0.5 * right) * 10.5),
+                                        break_long_words=False)
                    for place, text in titles.items()}
         above = 0.26 + 0.165 * max(map(len, wrapped.values()))
         self.size = [max(7.6, columns * (left + width + right) + 0.15), 0.0]
@@ -90,7 +91,8 @@ def footer_lines(summary, wrap):
         text += f"; and {more} more environment{'s' * (more > 1)}" if more else ""
         lines = textwrap.wrap(text, wrap)
     for caveat in summary["caveats"][:3]:
-        lines += textwrap.wrap(f"Caveat: {caveat}", wrap)
+        some = textwrap.wrap(f"Caveat: {caveat}", wrap)
+        lines += some if len(some) < 3 else [some[0], some[1] + " ..."]
     if len(summary["caveats"]) > 3:
         lines.append(f"{len(summary['caveats']) - 3} more caveats are in the summary.")
     return lines

@@ -2,7 +2,7 @@
 
 #: Fields that tell panels apart. Points hold all of them, tables the first three and maybe more.
 FIELDS = ("case", "state", "dx", "n_fluid", "n_boundary", "H", "order", "dim", "precision",
-          "interaction", "smoothing", "integrator", "dt", "isa", "study")
+          "interaction", "smoothing", "integrator", "dt", "isa", "grid", "study", "series")
 _NO_BREAK = "\N{NO-BREAK SPACE}"
 #: Always named in a title; the other fields only where they differ.
 _ALWAYS = ("case", "state", "dx", "N", "precision", "interaction")
@@ -18,7 +18,7 @@ class Panel:
 
 def of_table(summary, table, keep=lambda row: True):
     """Group a table's rows by the FIELDS they hold; the other facts come from matching points."""
-    points = [flat(entry) for entry in summary["points"]]
+    points = [flat(summary, entry) for entry in summary["points"]]
     found = []
     for key, rows in _group(filter(keep, summary[table]), FIELDS):
         same = [point for point in points if all(value is None or point.get(field) == value
@@ -29,13 +29,16 @@ def of_table(summary, table, keep=lambda row: True):
 
 def of_points(summary, keep=lambda entry: True):
     """Group the summary's points by everything but backend, M and threads."""
-    entries = [{**entry, **flat(entry)} for entry in summary["points"] if keep(entry)]
+    entries = [{**entry, **flat(summary, entry)} for entry in summary["points"] if keep(entry)]
     return [Panel(rows, _facts(rows)) for _, rows in _group(entries, FIELDS)]
 
 
-def flat(entry):
-    """Return the point of an entry together with its study."""
-    return {**entry["point"], "study": entry.get("study")}
+def flat(summary, entry):
+    """Return the point of an entry together with its study, series and environment."""
+    series, all_series = entry.get("series"), summary.get("series") or []
+    known = isinstance(series, int) and 0 <= series < len(all_series)
+    return {**entry["point"], "study": entry.get("study"), "series": series,
+            "environment": all_series[series].get("environment") if known else None}
 
 
 def titles(panels):
@@ -83,7 +86,7 @@ def _group(rows, fields):
 
 
 def _facts(rows):
-    facts = {field: {row.get(field) for row in rows} - {None} for field in FIELDS}
+    facts = {field: {row.get(field) for row in rows} - {None} for field in (*FIELDS, "environment")}
     facts["N"] = {(row["n_fluid"], row["n_boundary"]) for row in rows if "n_fluid" in row}
     return facts
 
@@ -91,17 +94,24 @@ def _facts(rows):
 def _words(facts):
     """Return {field: text} in the order of a title."""
     forms = {
-        "case": str, "state": str, "dx": lambda v: f"dx = {v:g} m", "N": _particles,
+        "case": str, "state": str, "dx": lambda v: _whole(f"dx = {v:g} m"), "N": _particles,
         "precision": str, "interaction": str, "dim": lambda v: f"{v}D",
         "H": lambda v: f"H = {v:g} m",
         "order": lambda v: f"order {v}", "smoothing": str, "integrator": str,
         "dt": lambda v: f"dt = {v:g} s", "isa": lambda v: f"isa {v}",
-        "study": lambda v: f"study {v}",
+        "grid": str, "study": lambda v: f"study {v}",
+        "environment": lambda v: f"environment {str(v)[:8]}",
     }
-    return {field: " / ".join(form(value).replace(" ", _NO_BREAK) for value in sorted(facts[field]))
+    return {field: " / ".join(form(value) for value in sorted(facts[field]))
             for field, form in forms.items()}
 
 
 def _particles(counts):
     fluid, boundary = (f"{count:,}".replace(",", " ") for count in counts)
-    return f"N = {fluid} fluid" + (f" + {boundary} boundary" if counts[1] else "")
+    more = " " + _whole(f"+ {boundary} boundary") if counts[1] else ""
+    return _whole(f"N = {fluid} fluid") + more
+
+
+def _whole(text):
+    """Keep the words of a text on one line."""
+    return text.replace(" ", _NO_BREAK)

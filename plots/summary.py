@@ -21,6 +21,8 @@ TABLES = {
 }
 POINT = {**_PLACE, "n_fluid": NUMBER, "n_boundary": NUMBER, "precision": TEXT,
          "interaction": TEXT, "backend": TEXT, "M": OPTIONAL, "threads": COUNT}
+#: Other fields that may tell panels apart.
+_SCALARS = ("H", "order", "dim", "smoothing", "integrator", "dt", "isa", "grid", "study", "series")
 PHASES = ("index_s", "prepare_s", "zero_s", "sum_s", "reduce_s", "integrate_s", "total_s")
 
 
@@ -85,7 +87,8 @@ def doubles(data):
     notes = []
     for table in TABLES:
         keys = [tuple((field, value) for field, value in row.items() if isinstance(value, str)
-                      or field in ("dx", "M", "threads", "base_M")) for row in data[table]]
+                      or field in ("dx", "M", "threads", "base_M", "series"))
+                for row in data[table]]
         again = len(keys) - len(set(keys))
         if again:
             notes.append(f'{table}: {again} rows repeat the case, state, dx, backend, M and '
@@ -96,6 +99,9 @@ def doubles(data):
 def _check_row(row, fields, where):
     if not isinstance(row, dict):
         raise SummaryError(f"{where} is not an object")
+    for field in _SCALARS:
+        if isinstance(row.get(field), (dict, list)):
+            raise SummaryError(f'{where}: "{field}" is not one word or number')
     for field, kind in fields.items():
         if field not in row:
             raise SummaryError(f'{where} has no "{field}"')

@@ -26,9 +26,11 @@ bool is_utc(std::string_view text) {
   return rest.size() > 1 && rest[0] == '.' && std::all_of(rest.begin() + 1, rest.end(), digit);
 }
 
-/// Whether the value is an integer >= 0; comparing the JSON value itself would wrap large ones around.
+/// Whether the value is an integer >= 0; comparing the JSON value itself would wrap large ones
+/// around.
 bool is_count(const nlohmann::json& value) {
-  return value.is_number_unsigned() || (value.is_number_integer() && value.get<std::int64_t>() >= 0);
+  return value.is_number_unsigned() ||
+         (value.is_number_integer() && value.get<std::int64_t>() >= 0);
 }
 
 }  // namespace
@@ -94,7 +96,9 @@ std::optional<double> fields::seconds_or_null(const char* key) {
 std::optional<std::vector<double>> fields::seconds_list_or_null(const char* key) {
   const auto& value = at(key);
   if (value.is_null()) return std::nullopt;
-  const auto seconds = [](const nlohmann::json& v) { return v.is_number() && v.get<double>() >= 0; };
+  const auto seconds = [](const nlohmann::json& v) {
+    return v.is_number() && v.get<double>() >= 0;
+  };
   if (!value.is_array() || !std::all_of(value.begin(), value.end(), seconds))
     reject(key, "an array of numbers >= 0 or null");
   return value.get<std::vector<double>>();

@@ -8,9 +8,9 @@
 
 namespace pairsum::harness {
 
-/// Strict access to the keys of one JSON object: every getter throws pairsum::error naming the full key
-/// (with the prefix of the enclosing objects) if the key is missing or of another type, and finish()
-/// throws if the object has a key that no getter asked for.
+/// Strict access to the keys of one JSON object: every getter throws pairsum::error naming the full
+/// key (with the prefix of the enclosing objects) if the key is missing or of another type, and
+/// finish() throws if the object has a key that no getter asked for.
 class fields {
  public:
   /// @param prefix what to put before the keys in messages, like "phases."

@@ -24,9 +24,9 @@ struct rows_file {
 /// What to do with a last line that was cut while it was written.
 enum class cut_line { refuse, drop };
 
-/// Reads a rows file strictly. Throws pairsum::error with one line `FILE:LINE: what` for a file that
-/// cannot be opened, is empty, is no rows file, has a wrong row, a sample before its environment row, or
-/// a cut last line (unless it is to be dropped).
+/// Reads a rows file strictly. Throws pairsum::error with one line `FILE:LINE: what` for a file
+/// that cannot be opened, is empty, is no rows file, has a wrong row, a sample before its
+/// environment row, or a cut last line (unless it is to be dropped).
 rows_file read_rows(const std::filesystem::path& path, cut_line last_line = cut_line::refuse);
 
 }  // namespace pairsum::harness

@@ -107,24 +107,15 @@ json head(const char* kind) { return {{"schema", row_schema}, {"kind", kind}}; }
 }  // namespace
 
 void to_json(json& j, const point& p) {
-  j = {{"case", p.case_name},
-       {"state", p.state},
-       {"dx", finite(p.dx)},
-       {"H", finite(p.H)},
-       {"n_fluid", p.n_fluid},
-       {"n_boundary", p.n_boundary},
-       {"order", p.order},
-       {"dim", p.dim},
-       {"precision", p.precision},
-       {"interaction", p.interaction},
-       {"smoothing", p.smoothing},
-       {"integrator", p.integrator},
-       {"dt", finite(p.dt)},
-       {"backend", p.backend},
-       {"grid", p.grid},
-       {"M", p.M},
-       {"threads", p.threads},
-       {"isa", p.isa}};
+  j = {{"case", p.case_name},      {"state", p.state},
+       {"dx", finite(p.dx)},       {"H", finite(p.H)},
+       {"n_fluid", p.n_fluid},     {"n_boundary", p.n_boundary},
+       {"order", p.order},         {"dim", p.dim},
+       {"precision", p.precision}, {"interaction", p.interaction},
+       {"smoothing", p.smoothing}, {"integrator", p.integrator},
+       {"dt", finite(p.dt)},       {"backend", p.backend},
+       {"grid", p.grid},           {"M", p.M},
+       {"threads", p.threads},     {"isa", p.isa}};
 }
 
 void to_json(json& j, const phases& p) {
@@ -270,7 +261,8 @@ row parse_row(const json& j) {
   if (kind == "sample") return j.get<sample>();
   if (kind == "environment") return j.get<environment_row>();
   if (kind == "void") return j.get<void_row>();
-  throw error("key \"kind\" should be \"sample\", \"environment\" or \"void\", is \"" + kind + "\"");
+  throw error("key \"kind\" should be \"sample\", \"environment\" or \"void\", is \"" + kind +
+              "\"");
 }
 
 }  // namespace pairsum::harness

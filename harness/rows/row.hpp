@@ -9,7 +9,8 @@
 #include <variant>
 #include <vector>
 
-/// The rows of a results file as plain structs; keys and meaning are those of docs/design.md, section 3.
+/// The rows of a results file as plain structs; keys and meaning are those of docs/design.md,
+/// section 3.
 namespace pairsum::harness {
 
 inline constexpr const char* row_schema = "pairsum.row/1";

@@ -18,7 +18,8 @@ namespace {
 bool has_rows(const std::filesystem::path& path) {
   std::error_code code;
   if (!std::filesystem::exists(path, code)) return false;
-  return !std::filesystem::is_regular_file(path, code) || std::filesystem::file_size(path, code) > 0;
+  return !std::filesystem::is_regular_file(path, code) ||
+         std::filesystem::file_size(path, code) > 0;
 }
 
 [[noreturn]] void cannot_write(const std::filesystem::path& path, const std::string& why) {

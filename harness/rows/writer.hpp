@@ -8,19 +8,21 @@
 
 namespace pairsum::harness {
 
-/// Appends rows to a file so that whatever happens to the process, the file holds whole rows: each row is
-/// one write(2) followed by fsync(2), and a write that the system cut short is taken back.
+/// Appends rows to a file so that whatever happens to the process, the file holds whole rows: each
+/// row is one write(2) followed by fsync(2), and a write that the system cut short is taken back.
 class row_writer {
  public:
-  /// Opens `path` for appending and creates the folders above it. Throws pairsum::error with one line if
-  /// that is not possible, or if the file exists and is neither empty nor a valid rows file.
+  /// Opens `path` for appending and creates the folders above it. Throws pairsum::error with one
+  /// line if that is not possible, or if the file exists and is neither empty nor a valid rows
+  /// file.
   explicit row_writer(std::filesystem::path path);
   ~row_writer();
   row_writer(const row_writer&) = delete;
   row_writer& operator=(const row_writer&) = delete;
 
-  /// Writes one row durably. Numbers that are not finite are written as null; a row that the reader would
-  /// refuse (also a sample whose environment row is not in the file) throws pairsum::error unwritten.
+  /// Writes one row durably. Numbers that are not finite are written as null; a row that the reader
+  /// would refuse (also a sample whose environment row is not in the file) throws pairsum::error
+  /// unwritten.
   void write(const row& value);
 
   const std::filesystem::path& path() const { return path_; }
@@ -31,8 +33,8 @@ class row_writer {
   std::set<std::string> environments_;
 };
 
-/// The last round that the file names (its voided rounds too); 0 if there is no file or an empty one.
-/// Throws like read_rows.
+/// The last round that the file names (its voided rounds too); 0 if there is no file or an empty
+/// one. Throws like read_rows.
 int last_round(const std::filesystem::path& path);
 
 }  // namespace pairsum::harness

@@ -12,18 +12,19 @@
 
 namespace pairsum::harness {
 
-/// A ratio base/other with its interval (empty with too few pairs). `pairs` is 0 if it was not paired.
+/// A ratio base/other with its interval (empty with too few pairs). `pairs` is 0 if it was not
+/// paired.
 struct ratio_estimate {
   double value = 0;
   std::optional<interval> bounds;
   std::size_t pairs = 0;
 };
 
-/// The ratio of values that were measured together: base[i] and other[i] belong to the same repetition,
-/// so that what disturbs both cancels. The estimate is exp(median(log(base[i] / other[i]))); its interval
-/// is the distribution-free one of the median (David & Nagaraja, Order Statistics, 3rd ed., sec. 7.1),
-/// which the monotone logarithm keeps. Throws pairsum::error for spans that are empty or of different
-/// length and for values that are not positive and finite.
+/// The ratio of values that were measured together: base[i] and other[i] belong to the same
+/// repetition, so that what disturbs both cancels. The estimate is exp(median(log(base[i] /
+/// other[i]))); its interval is the distribution-free one of the median (David & Nagaraja, Order
+/// Statistics, 3rd ed., sec. 7.1), which the monotone logarithm keeps. Throws pairsum::error for
+/// spans that are empty or of different length and for values that are not positive and finite.
 inline ratio_estimate paired_ratio(std::span<const double> base, std::span<const double> other) {
   if (base.size() != other.size())
     throw error("a paired ratio needs as many base values as others, there are " +

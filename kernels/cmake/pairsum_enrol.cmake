@@ -57,7 +57,7 @@ function(pairsum_enrol out_sources folder)
       string(APPEND declarations "void enrol_references_${where}(registry&);\n")
       string(APPEND calls "  enrol_references_${where}(r);\n")
       pairsum_write_if_changed(${folder}/references_${where}.cpp
-        "// generated\n#include \"sum/enrol.hpp\"\n${interaction_includes}namespace pairsum {\nvoid enrol_references_${where}(registry& r) {\n${body}}\n}\n")
+        "// generated\n#include \"sum/enrol_oracle.hpp\"\n${interaction_includes}namespace pairsum {\nvoid enrol_references_${where}(registry& r) {\n${body}}\n}\n")
       list(APPEND sources ${folder}/references_${where}.cpp)
       foreach(b IN LISTS PAIRSUM_BACKENDS)
         set(body "")

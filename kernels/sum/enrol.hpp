@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "core/precision.hpp"
-#include "sum/reference_of.hpp"
 #include "sum/registry.hpp"
 #include "sum/summation_of.hpp"
 
@@ -20,13 +19,6 @@ template <class B, class I>
 void enrol_summation(registry& r) {
   r.enrol(B::traits.name, combination_of<I>(), [](const setup& s) -> std::unique_ptr<summation> {
     return std::make_unique<summation_of<B, I>>(s);
-  });
-}
-
-template <class I>
-void enrol_oracle(registry& r) {
-  r.enrol_reference(combination_of<I>(), [](const setup& s) -> std::unique_ptr<reference> {
-    return std::make_unique<reference_of<I>>(s);
   });
 }
 

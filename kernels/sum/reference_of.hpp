@@ -27,7 +27,7 @@ class reference_of final : public reference {
 
   expectation brute_force(const particle_table& table, const team& t,
                           std::vector<std::uint32_t> ids) const override {
-    const world w(*this, table);
+    const world w(*this, table, ids.empty());
     if (ids.empty()) ids = w.fluid;
     return evaluate(w, ids, t, [&](std::uint32_t, auto&& meet) {
       for (std::uint32_t j = 0; j < table.size(); ++j) meet(j);
@@ -35,39 +35,47 @@ class reference_of final : public reference {
   }
 
   expectation cell_search(const particle_table& table, const team& t) const override {
-    const world w(*this, table);
+    const world w(*this, table, true);
     const search s(w, H_);
     return evaluate(w, w.fluid, t, [&](std::uint32_t i, auto&& meet) { s.around(w, i, meet); });
   }
 
  private:
-  /// The particles, rounded to R, with what they bring to a pair.
+  /// The particles, rounded to R; what they bring to a pair is derived when it is asked for, or beforehand for all.
   struct world {
+    const reference_of& f;
+    const particle_table& table;
     std::vector<vec<D, R>> x;
-    std::vector<typename I::template particle<tracked>> a;
-    std::vector<typename I::template boundary_particle<tracked>> b;
-    std::vector<particle_kind> kind;
+    std::vector<typename I::template particle<tracked>> derived;
+    const std::vector<particle_kind>& kind;
     std::vector<std::uint32_t> fluid;
 
-    world(const reference_of& f, const particle_table& table)
-        : x(table.size()), a(table.size()), b(table.size()), kind(table.kind) {
-      for (std::uint32_t i = 0; i < table.size(); ++i) {
-        particle_state<D, tracked> s;
-        for (int d = 0; d < D; ++d) {
-          x[i][d] = static_cast<R>(table.x[d][i]);
-          s.x[d] = x[i][d];
-          s.v[d] = static_cast<R>(table.v[d][i]);
-        }
-        s.rho = static_cast<R>(table.rho[i]);
-        s.m = static_cast<R>(table.m[i]);
-        s.id = i;
-        if (kind[i] == particle_kind::fluid) {
-          a[i] = f.formula_.derive(s);
-          fluid.push_back(i);
-        } else if (kind[i] == particle_kind::boundary) {
-          b[i] = f.formula_.derive_boundary(s);
-        }
+    world(const reference_of& owner, const particle_table& t, bool derive_all)
+        : f(owner), table(t), x(t.size()), kind(t.kind) {
+      for (std::uint32_t i = 0; i < t.size(); ++i) {
+        for (int d = 0; d < D; ++d) x[i][d] = static_cast<R>(t.x[d][i]);
+        if (kind[i] == particle_kind::fluid) fluid.push_back(i);
       }
+      if (!derive_all) return;
+      derived.resize(t.size());
+      for (const std::uint32_t i : fluid) derived[i] = f.formula_.derive(state(i));
+    }
+    particle_state<D, tracked> state(std::uint32_t i) const {
+      particle_state<D, tracked> s;
+      for (int d = 0; d < D; ++d) {
+        s.x[d] = x[i][d];
+        s.v[d] = static_cast<R>(table.v[d][i]);
+      }
+      s.rho = static_cast<R>(table.rho[i]);
+      s.m = static_cast<R>(table.m[i]);
+      s.id = i;
+      return s;
+    }
+    typename I::template particle<tracked> particle(std::uint32_t i) const {
+      return derived.empty() ? f.formula_.derive(state(i)) : derived[i];
+    }
+    typename I::template boundary_particle<tracked> boundary(std::uint32_t i) const {
+      return f.formula_.derive_boundary(state(i));
     }
   };
 
@@ -146,6 +154,7 @@ class reference_of final : public reference {
       for (std::size_t k = p * piece; k < std::min(ids.size(), (p + 1) * piece); ++k) {
         const std::uint32_t i = ids[k];
         sums s;
+        const auto a_i = w.particle(i);
         candidates(i, [&](std::uint32_t j) {
           if (j == i || w.kind[j] == particle_kind::lost) return;
           const vec<D, R> r = w.x[i] - w.x[j];
@@ -157,12 +166,13 @@ class reference_of final : public reference {
           if (w.kind[j] == particle_kind::boundary) {
             ++walls;
             if (!(r2 < boundary_reach * boundary_reach)) return;
-            s.take(formula_.boundary(rt, r2t, w.a[i], w.b[j]), nullptr);
+            s.take(formula_.boundary(rt, r2t, a_i, w.boundary(j)), nullptr);
           } else {
             ++sides;
+            const auto a_j = w.particle(j);
             const vec<D, tracked> back = -rt;
-            const auto seen_from_j = formula_.pair(back, r2t, w.a[j], w.a[i]).to_j;
-            s.take(formula_.pair(rt, r2t, w.a[i], w.a[j]).to_i, &seen_from_j);
+            const auto seen_from_j = formula_.pair(back, r2t, a_j, a_i).to_j;
+            s.take(formula_.pair(rt, r2t, a_i, a_j).to_i, &seen_from_j);
           }
         });
         const double n = static_cast<double>(s.terms);

@@ -36,6 +36,7 @@ def make(thread_counts=(1, 2), states=("rest", "collapsed"), ms=MS, intervals=Tr
             "environments": [{"host": "host", "cpu": "Example CPU 9000 @ 2.00GHz",
                               "cores": max(thread_counts), "compiler": "GNU 12.2.0",
                               "git": "abc1234", "dirty": False}],
+            "series": [{"case": "dam_break", "study": "made", "environment": "0123456789abcdef"}],
             "points": points,
             "speedup": [_speedup(state, backend, m, t, intervals) for state in states
                         for backend in BACKENDS for m in ms

@@ -6,9 +6,11 @@ import artists
 import efficiency
 import ladder
 import m_comparison
+import made_summary
 import phase_split
 import speedup
 import style
+import summary
 
 MODULES = (speedup, efficiency, algorithm_speedup, m_comparison, phase_split, ladder)
 WIDE = [module for module in MODULES if module is not phase_split]
@@ -122,6 +124,25 @@ def test_figures_say_of_what_and_on_what(made, module):
     for part in ("dam_break", "dx = 0.00594 m", "1 000 000 fluid + 1 014 966 boundary", "double",
                  "Example CPU 9000", "GNU 12.2.0", "git abc1234", "Caveat: "):
         assert part in text.replace("\n", " ").replace("\N{NO-BREAK SPACE}", " ")
+
+
+def test_series_that_differ_in_precision_get_panels_of_their_own():
+    made = made_summary.make(states=("rest",), ms=(6,))
+    again = made_summary.make(states=("rest",), ms=(6,))
+    for table in ("points", "speedup", "algorithm_speedup", "m_comparison"):
+        for number, some in enumerate((made, again)):
+            for row in some[table]:
+                row["series"] = number
+        made[table] += again[table]
+    for entry in made["points"][len(made["points"]) // 2:]:
+        entry["point"]["precision"] = "float"
+    made["series"].append({"environment": "fedcba9876543210"})
+    assert summary.doubles(made) == []
+    for module in MODULES:
+        names = list(artists.panels(module.draw(made)))
+        assert len(set(names)) == len(names)
+        for words in ("double, environment 01234567", "float, environment fedcba98"):
+            assert sum(name.startswith(words) for name in names) == len(names) / 2
 
 
 def test_thread_axes_are_whole_and_logarithmic_from_four_threads(made):

@@ -95,7 +95,8 @@ def test_bytes_are_refused(run, tmp_path):
     ("speedup", "threads", "2", "threads"), ("speedup", "threads", 0, "whole number"),
     ("speedup", "speedup", -1, "positive"), ("m_comparison", "M", True, "a number or null"),
     ("algorithm_speedup", "runtime", None, "expected text"),
-    ("points", "phases", None, "phases"), ("points", "point", [], "not an object")])
+    ("points", "study", ["a"], "not one word"), ("points", "phases", None, "phases"),
+    ("points", "point", [], "not an object")])
 def test_a_wrong_value_is_refused_by_its_place(run, two, table, field, value, said):
     two[table][1][field] = value
     line = refused(run(two)[0])

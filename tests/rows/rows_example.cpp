@@ -1,5 +1,5 @@
-/// rows_example write PATH: writes one row of every kind. rows_example check PATH: reads a rows file
-/// strictly; prints what is wrong and exits 2 if it is no valid one.
+/// rows_example write PATH: writes one row of every kind. rows_example check PATH: reads a rows
+/// file strictly; prints what is wrong and exits 2 if it is no valid one.
 #include <cstdio>
 #include <string>
 

@@ -136,7 +136,10 @@ TEST(row, messages_say_what_is_right_and_what_is_there) {
             "key \"verify.fingerprint\" should be 16 hex digits, is \"xyz\"");
   EXPECT_EQ(rejection(s, [](json& j) { j["utc"] = "22.11.2026"; }),
             "key \"utc\" should be a UTC time like 2026-11-22T15:30:00.123Z, is \"22.11.2026\"");
-  EXPECT_EQ(rejection(s, [](json& j) { j["threads_busy_s"] = {1.0, "a"}; }),
+  EXPECT_EQ(rejection(s,
+                      [](json& j) {
+                        j["threads_busy_s"] = {1.0, "a"};
+                      }),
             "key \"threads_busy_s\" should be an array of numbers >= 0 or null, is an array");
 }
 

@@ -42,8 +42,8 @@ TEST(interval, ranks_of_known_sizes) {
   const struct {
     std::size_t n, rank;
     double confidence;
-  } known[] = {{7, 1, 0.984375}, {8, 1, 0.9921875}, {9, 2, 0.9609375}, {10, 2, 0.978515625},
-               {12, 3, 0.96142578125}, {20, 6, 0.95861053466796875}};
+  } known[] = {{7, 1, 0.984375},     {8, 1, 0.9921875},      {9, 2, 0.9609375},
+               {10, 2, 0.978515625}, {12, 3, 0.96142578125}, {20, 6, 0.95861053466796875}};
   for (const auto& k : known) {
     const auto ranks = ranks_of_median(k.n);
     ASSERT_TRUE(ranks) << k.n;

@@ -1,0 +1,17 @@
+#pragma once
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace pairsum::harness {
+
+/// Each adds its subcommand to the program; `chosen` receives what to do if that subcommand was called, and returns the exit code.
+using action = std::function<int()>;
+void add_list_command(CLI::App& app, action& chosen);
+void add_verify_command(CLI::App& app, action& chosen);
+void add_run_command(CLI::App& app, action& chosen);
+void add_report_command(CLI::App& app, action& chosen);
+
+}  // namespace pairsum::harness

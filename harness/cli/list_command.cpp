@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cases/case.hpp"
+#include "core/names.hpp"
+#include "harness/cli/commands.hpp"
+#include "integrators/integrator.hpp"
+#include "sum/grids.hpp"
+#include "sum/registry.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+nlohmann::json as_json() {
+  const registry& r = registry::instance();
+  nlohmann::json all{{"schema", "pairsum.list/1"},
+                     {"interactions", r.interactions()},
+                     {"smoothings", r.smoothings()},
+                     {"precisions", r.precisions()},
+                     {"dims", r.dims()},
+                     {"grids", grid_names()},
+                     {"orders", memory_orders},
+                     {"states", case_states}};
+  for (const backend_entry& b : r.backends())
+    all["backends"].push_back({{"name", b.traits.name},
+                               {"description", b.traits.description},
+                               {"aliases", b.traits.aliases},
+                               {"threads", name_of(b.traits.threads)},
+                               {"symmetric", b.traits.symmetric},
+                               {"deterministic", b.traits.deterministic},
+                               {"unavailable", b.unavailable.empty() ? nlohmann::json() : nlohmann::json(b.unavailable)}});
+  for (const case_entry& c : case_entries()) all["cases"].push_back({{"name", c.name}, {"description", c.description}});
+  for (const integrator_entry& i : integrator_entries())
+    all["integrators"].push_back({{"name", i.name}, {"description", i.description}});
+  return all;
+}
+
+void print_text() {
+  const registry& r = registry::instance();
+  fmt::print("backends\n");
+  for (const backend_entry& b : r.backends()) {
+    fmt::print("  {:<16}{:<7}{}\n", b.traits.name, name_of(b.traits.threads), b.traits.description);
+    fmt::print("  {:<23}also: {}{}\n", "", b.traits.aliases, b.unavailable.empty() ? "" : "  [unavailable: " + b.unavailable + "]");
+  }
+  fmt::print("cases\n");
+  for (const case_entry& c : case_entries()) fmt::print("  {:<16}{}\n", c.name, c.description);
+  fmt::print("integrators\n");
+  for (const integrator_entry& i : integrator_entries()) fmt::print("  {:<16}{}\n", i.name, i.description);
+  std::vector<std::string> dims;
+  for (const int d : r.dims()) dims.push_back(fmt::format("{}D", d));
+  fmt::print("interactions      {}\nsmoothing kernels {}\nprecisions        {}\ndimensions        {}\ngrids             {}\n"
+             "orders of memory  {}\nstates            {}\n",
+             join(r.interactions()), join(r.smoothings()), join(r.precisions()), join(dims), join(grid_names()),
+             join(memory_orders), join(case_states));
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, action& chosen) {
+  CLI::App* const command = app.add_subcommand("list", "What there is: backends, cases, interactions, kernels, grids");
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "as JSON");
+  command->callback([&chosen, json] {
+    chosen = [json] {
+      if (*json)
+        fmt::print("{}\n", as_json().dump(2));
+      else
+        print_text();
+      return 0;
+    };
+  });
+}
+
+}  // namespace pairsum::harness

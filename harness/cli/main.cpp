@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "core/error.hpp"
+#include "harness/cli/commands.hpp"
+#include "harness/environment/environment.hpp"
+
+namespace {
+
+constexpr const char* about =
+    "pairsum sums short-range pair interactions of particles with many algorithms, verifies each,\n"
+    "measures them against each other, and says which to take.\n";
+constexpr const char* examples =
+    "Examples:\n"
+    "  pairsum list                                          what there is\n"
+    "  pairsum verify                                        every backend against the O(N^2) reference\n"
+    "  pairsum run --dx 0.02 --backend naive_omp,symmetric_omp --M 6,7 --threads 1,2\n"
+    "  pairsum report results/run                            tables and summary.json of what was measured\n"
+    "Exit codes: 0 fine, 1 a verification failed, 2 bad input, 130 interrupted.";
+
+int run_program(int argc, char** argv) {
+  CLI::App app(about, "pairsum");
+  app.footer(examples);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", pairsum::harness::describe_build(), "print version, revision, compiler and flags");
+  pairsum::harness::action chosen;
+  pairsum::harness::add_list_command(app, chosen);
+  pairsum::harness::add_verify_command(app, chosen);
+  pairsum::harness::add_run_command(app, chosen);
+  pairsum::harness::add_report_command(app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);
+    throw pairsum::error(std::string(e.what()) + " (see pairsum --help)");
+  }
+  return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const pairsum::error& e) {
+    fmt::print(stderr, "pairsum: {}\n", e.what());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "pairsum: out of memory; a larger dx or a smaller M needs less\n");
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "pairsum: {}\n", e.what());
+  }
+  return 2;
+}

@@ -1,0 +1,25 @@
+# Run at every build: writes OUTPUT with the revision that is being built, if it has changed.
+find_package(Git QUIET)
+set(revision "unknown")
+set(dirty false)
+if(GIT_EXECUTABLE)
+  execute_process(COMMAND ${GIT_EXECUTABLE} -C ${SOURCE} rev-parse --short=12 HEAD
+    OUTPUT_VARIABLE out OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed ERROR_QUIET)
+  if(NOT failed)
+    set(revision ${out})
+    # Results and pictures are products of a build, not part of it.
+    execute_process(COMMAND ${GIT_EXECUTABLE} -C ${SOURCE} status --porcelain -- kernels harness CMakeLists.txt CMakePresets.json
+      OUTPUT_VARIABLE out OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+    if(NOT out STREQUAL "")
+      set(dirty true)
+    endif()
+  endif()
+endif()
+set(text "#pragma once\n\nnamespace pairsum::harness::build {\ninline constexpr const char* git = \"${revision}\";\ninline constexpr bool dirty = ${dirty};\n}\n")
+set(old "")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} old)
+endif()
+if(NOT old STREQUAL text)
+  file(WRITE ${OUTPUT} "${text}")
+endif()

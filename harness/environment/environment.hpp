@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+
+#include "harness/rows/row.hpp"
+
+namespace pairsum::harness {
+
+/// Describes this machine and this build. The id (`environment`) is a hash of everything but the time and the study, so equal
+/// conditions have equal ids.
+environment_row describe_environment(const std::string& study);
+
+/// Version, revision, compiler and flags of this build, for --version.
+std::string describe_build();
+
+/// The instruction set the library was compiled for: "avx512", "avx2", "sse2", "neon" or "generic".
+std::string compiled_isa();
+
+/// Now, UTC, with milliseconds: 2026-11-22T15:30:00.123Z.
+std::string utc_now();
+/// The same to the second without separators, for file names: 20261122T153000Z.
+std::string utc_stamp();
+
+}  // namespace pairsum::harness

@@ -1,0 +1,75 @@
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "core/error.hpp"
+#include "harness/environment/environment.hpp"
+#include "harness/environment/machine.hpp"
+#include "harness/gbench/bench.hpp"
+#include "harness/measure/memory.hpp"
+#include "harness/plan/plan.hpp"
+#include "harness/plan/words.hpp"
+
+namespace {
+
+using namespace pairsum::harness;
+
+/// Takes the program's own flags out of the command line; what is left is Google Benchmark's.
+bench_request parse(CLI::App& app, int argc, char** argv, std::vector<std::string>& rest) {
+  bench_request r;
+  std::string M = "6,7", threads = "all";
+  app.allow_extras();
+  app.set_help_flag("");
+  app.add_option("--case", r.case_name);
+  app.add_option("--dx", r.dx);
+  app.add_option("--state", r.state);
+  app.add_option("--M", M);
+  app.add_option("--threads", threads);
+  app.parse(argc, argv);
+  rest = app.remaining();
+  r.M = parse_counts("--M", M, 0);
+  r.threads = parse_counts("--threads", threads, usable_cores());
+  run_request check;
+  check.case_name = r.case_name;
+  check.states = {r.state};
+  check.dx = {r.dx};
+  check.M = r.M;
+  check.threads = r.threads;
+  check_request(check);
+  return r;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app;
+  std::vector<std::string> rest;
+  const bench_request r = parse(app, argc, argv, rest);
+  std::vector<char*> words{argv[0]};
+  for (std::string& w : rest) {
+    if (w == "--help" || w == "-h")
+      fmt::print("pairsum_bench [--case NAME] [--dx M] [--state rest|perturbed] [--M 6,7] [--threads 1,2|all] "
+                 "[--benchmark_filter=REGEX ...]\n");
+    words.push_back(w.data());
+  }
+  int n = static_cast<int>(words.size());
+  benchmark::Initialize(&n, words.data());
+  if (benchmark::ReportUnrecognizedArguments(n, words.data())) return 2;
+  keep_freed_memory();
+  benchmark::AddCustomContext("pairsum", describe_build());
+  register_backends(r);
+  register_parts();
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "pairsum_bench: {}\n", e.what());
+    return 2;
+  }
+}

@@ -1,0 +1,45 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "harness/rows/row.hpp"
+
+namespace pairsum::harness {
+
+/// What the user asked `pairsum run` for; lists are crossed.
+struct run_request {
+  std::string study = "run";
+  std::string case_name = "dam_break";
+  std::vector<double> dx{0.02};
+  std::vector<std::string> states{"rest"};
+  std::vector<std::string> backends{"naive_omp", "symmetric_omp"};
+  std::vector<int> M{6, 7};
+  std::vector<int> threads{1};
+  int dim = 3;
+  double H = 0;  ///< 0: 2 dx
+  std::string order = "lattice", precision = "double", interaction = "ferrari09", smoothing = "wendland_c2";
+  std::string integrator = "euler", grid = "hashed_grid", outside = "error";
+  double dt = 1e-5;
+  int steps = 5, repetitions = 6;
+  double budget_s = 0;  ///< 0: none
+  std::uint64_t seed = 1;
+};
+
+/// Throws pairsum::error, in one line, for a request that makes no sense (unknown words, numbers out of range), before anything is
+/// computed or written.
+void check_request(const run_request& r);
+
+/// One world: the points of a world share particles and reference.
+struct world_plan {
+  double dx;
+  std::string state;
+  std::vector<point> points;  ///< headline first: in the order of the request; particle numbers are filled in later
+};
+
+/// The points, grouped by world. A serial backend appears once per M, with 1 thread.
+std::vector<world_plan> expand(const run_request& r);
+
+/// The order in which repetition `repetition` measures `n` points: a permutation that depends on (seed, repetition) alone.
+std::vector<std::size_t> shuffled_order(std::size_t n, std::uint64_t seed, int repetition);
+
+}  // namespace pairsum::harness

@@ -1,0 +1,67 @@
+#include "harness/plan/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/error.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+template <class N>
+N number(const std::string& option, const std::string& word, const char* kind) {
+  N value{};
+  const char* const end = word.data() + word.size();
+  const auto [stop, failed] = std::from_chars(word.data(), end, value);
+  if (failed != std::errc{} || stop != end)
+    throw error(fmt::format("{} takes {}, not \"{}\"", option, kind, word));
+  return value;
+}
+
+void add_once(std::vector<int>& values, int v) {
+  if (std::ranges::find(values, v) == values.end()) values.push_back(v);
+}
+
+}  // namespace
+
+std::vector<std::string> parse_words(const std::string& option, const std::string& text) {
+  std::vector<std::string> words;
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t comma = text.find(',', begin);
+    words.push_back(text.substr(begin, comma == text.npos ? text.npos : comma - begin));
+    if (words.back().empty()) throw error(fmt::format("{} has an empty word in \"{}\"", option, text));
+    if (comma == text.npos) return words;
+    begin = comma + 1;
+  }
+}
+
+std::vector<int> parse_counts(const std::string& option, const std::string& text, int cores) {
+  constexpr const char* kind = "whole numbers like 1,2 or 5..9";
+  std::vector<int> values;
+  for (const std::string& word : parse_words(option, text)) {
+    const std::size_t dots = word.find("..");
+    if (word == "all" && cores > 0) {
+      for (int t = 1; t < cores; t *= 2) add_once(values, t);
+      add_once(values, cores);
+    } else if (dots != word.npos) {
+      const int first = number<int>(option, word.substr(0, dots), kind), last = number<int>(option, word.substr(dots + 2), kind);
+      if (last < first || last - first > 10000) throw error(fmt::format("{}: \"{}\" is no ascending range", option, word));
+      for (int v = first; v <= last; ++v) add_once(values, v);
+    } else {
+      add_once(values, number<int>(option, word, kind));
+    }
+  }
+  return values;
+}
+
+std::vector<double> parse_numbers(const std::string& option, const std::string& text) {
+  std::vector<double> values;
+  for (const std::string& word : parse_words(option, text))
+    values.push_back(number<double>(option, word, "numbers like 0.02,0.03"));
+  return values;
+}
+
+}  // namespace pairsum::harness

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/rows/reader.hpp"
+#include "harness/rows/row.hpp"
+
+namespace pairsum::harness {
+
+/// One repetition of a point. A point that is measured twice in a round has two slots there.
+struct repetition_key {
+  std::size_t file = 0;
+  int round = 1, repetition = 1, slot = 1;
+  auto operator<=>(const repetition_key&) const = default;
+};
+
+/// Points that may stand in one table: the same study, machine and build, and the same problem;
+/// they differ in backend, grid, M and threads only, which are empty in `common`.
+struct series {
+  std::string study;
+  std::size_t build = 0;    ///< which of the different machines and builds
+  std::string environment;  ///< id of the first environment row of that build
+  struct point common;
+};
+
+/// All verified repetitions of one point.
+struct measured_point {
+  struct point point;
+  std::size_t series = 0;
+  int cores = 1;
+  std::size_t steps = 0;                         ///< timed steps per repetition
+  std::map<repetition_key, phases> repetitions;  ///< mean over the steps
+  std::optional<work_row> work;
+  std::optional<std::uint64_t> peak_rss_bytes;
+  std::string fingerprint;  ///< of the first row
+};
+
+/// A point with rows that did not pass the verification; those rows are in no other place.
+struct failed_point {
+  struct point point;
+  std::string study;
+  std::size_t rows = 0;
+  std::string error;
+};
+
+/// The rows of some files, ordered by series and point.
+struct measurements {
+  std::vector<std::string> sources;
+  std::vector<environment_row> environments;
+  std::vector<struct series> series;
+  std::vector<measured_point> points;
+  std::vector<failed_point> failed;
+  std::vector<std::string> caveats;
+};
+
+/// Collects the valid rows of the files. A repetition with an unverified row is left out as a
+/// whole. Throws pairsum::error with one line if the rows come from different machines or builds
+/// (host, cpu, compiler, flags, git, dirty), unless `allow_mixed`; then they form different series.
+measurements collect(const std::vector<rows_file>& files, bool allow_mixed);
+
+/// The median over the repetitions of one phase; empty if it was not timed in all of them.
+std::optional<double> median_of(const measured_point& point, std::optional<double> phases::*phase);
+
+/// The values of one phase, one per repetition in which it was timed.
+std::vector<double> values_of(const measured_point& point, std::optional<double> phases::*phase);
+
+/// Backend, M and threads in one text: "symmetric_omp M=6 threads=2".
+std::string label(const point& p);
+
+/// The same for a caveat: with several series, the problem too.
+std::string label(const measurements& all, const measured_point& p);
+
+}  // namespace pairsum::harness

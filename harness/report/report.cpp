@@ -1,0 +1,51 @@
+#include "harness/report/report.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/error.hpp"
+#include "harness/report/summary.hpp"
+#include "harness/report/tables.hpp"
+#include "harness/rows/reader.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+std::vector<std::filesystem::path> rows_paths(const std::vector<std::filesystem::path>& given) {
+  std::vector<std::filesystem::path> paths;
+  for (const std::filesystem::path& path : given) {
+    if (!std::filesystem::is_directory(path)) {
+      paths.push_back(path);
+      continue;
+    }
+    std::vector<std::filesystem::path> inside;
+    for (const auto& entry : std::filesystem::directory_iterator(path))
+      if (entry.path().extension() == ".jsonl") inside.push_back(entry.path());
+    if (inside.empty()) throw error(path.string() + ": has no rows files (*.jsonl) in it");
+    std::sort(inside.begin(), inside.end());
+    paths.insert(paths.end(), inside.begin(), inside.end());
+  }
+  if (paths.empty()) throw error("a report needs at least one rows file or folder");
+  return paths;
+}
+
+}  // namespace
+
+std::string make_report(const std::vector<std::filesystem::path>& rows_files_or_folders,
+                        const report_options& options) {
+  std::vector<rows_file> files;
+  std::set<std::filesystem::path> seen;
+  bool any = false;
+  for (const std::filesystem::path& path : rows_paths(rows_files_or_folders)) {
+    if (!seen.insert(std::filesystem::weakly_canonical(path)).second) continue;
+    files.push_back(read_rows(path));
+    any = any || !files.back().valid_samples().empty();
+  }
+  if (!any) throw error("there are no samples in the rows, or all of their rounds are void");
+  const nlohmann::json summary = build_summary(files, options.allow_mixed);
+  write_summary(summary, options.summary_path);
+  return print_tables(summary);
+}
+
+}  // namespace pairsum::harness

@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+
+#include "harness/measure/stopwatch.hpp"
+
+namespace pairsum::harness {
+
+/// A line on stderr that says how far a run is and when it will be done. Silent unless stderr is a terminal, and in the first two
+/// seconds.
+class progress {
+ public:
+  /// `total`: units of work (seconds or points, as long as done() uses the same).
+  explicit progress(double total) : total_(total) {}
+  ~progress() { clear(); }
+
+  /// `done` units are finished; `what` is under way.
+  void show(double done, const std::string& what);
+  /// Takes the line away, so that other output starts at the margin.
+  void clear();
+
+ private:
+  double total_;
+  bool shown_ = false;
+  stopwatch since_start_;
+};
+
+/// True if stderr is a terminal.
+bool stderr_is_terminal();
+
+}  // namespace pairsum::harness

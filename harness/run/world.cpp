@@ -1,0 +1,98 @@
+#include "harness/run/world.hpp"
+
+#include <fmt/format.h>
+
+#include "harness/environment/machine.hpp"
+#include "harness/measure/memory.hpp"
+#include "harness/measure/stopwatch.hpp"
+#include "harness/measure/worker_team.hpp"
+#include "integrators/integrator.hpp"
+#include "sum/check.hpp"
+
+namespace pairsum::harness {
+
+world::world(const run_request& r, double dx, const std::string& state) : request_(r) {
+  initial_ = make_case(r.case_name, {r.dim, dx, r.H, state, r.seed});
+  if (r.outside == "drop") dropped_ = drop_outside(initial_.particles, initial_.omega_low, initial_.omega_high);
+  point any;
+  any.backend = r.backends.front();
+  any.M = r.M.front();
+  const setup s = setup_for(any);
+  check_input(initial_.particles, s);
+  order_ = memory_order(r.order, initial_, r.seed);
+  const worker_team all(runtime::omp, usable_cores());
+  verifier_ = std::make_unique<verifier>(registry::instance(), s, initial_.particles, all.get());
+}
+
+setup world::setup_for(const point& p) const {
+  setup s;
+  s.backend = p.backend;
+  s.interaction = request_.interaction;
+  s.smoothing = request_.smoothing;
+  s.precision = request_.precision;
+  s.grid = request_.grid;
+  s.dim = request_.dim;
+  s.M = p.M;
+  s.omega_low = initial_.omega_low;
+  s.omega_high = initial_.omega_high;
+  s.constants = {initial_.H, initial_.eos};
+  return s;
+}
+
+void world::complete(point& p) const {
+  p.H = initial_.H;
+  p.n_fluid = initial_.particles.count(particle_kind::fluid);
+  p.n_boundary = initial_.particles.count(particle_kind::boundary);
+}
+
+work_row world::work_of(const point& p, summation& s) {
+  const auto [at, is_new] = work_.try_emplace({p.backend, p.M});
+  if (is_new) {
+    const work_counts w = s.count_work();
+    at->second = {w.cells,        w.cells_nonempty,      w.sumF1,             w.sumF2,
+                  w.pairs_tested, w.pairs_interacting(), w.pairs_fluid_fluid, w.pairs_fluid_boundary};
+  }
+  return at->second;
+}
+
+world::result world::measure(const point& p) {
+  result out;
+  const auto summation = registry::instance().make_summation(setup_for(p));
+  const worker_team workers(summation->traits().threads, p.threads);
+  const team& t = workers.get();
+  const integrator_entry& integrator = find_integrator(request_.integrator);
+  reset_peak_rss();
+  summation->load(initial_.particles, order_);
+  for (int step = 1; step <= request_.steps && out.error.empty(); ++step) {
+    step_result now;
+    phases& times = now.times;
+    double checking = 0;
+    const auto evaluate = [&] {
+      stopwatch clock;
+      summation->index(t);
+      times.index_s = times.index_s.value_or(0) + clock.lap();
+      summation->prepare(t);
+      times.prepare_s = times.prepare_s.value_or(0) + clock.lap();
+      summation->zero(t);
+      times.zero_s = times.zero_s.value_or(0) + clock.lap();
+      summation->sum(t);
+      times.sum_s = times.sum_s.value_or(0) + clock.lap();
+      summation->reduce(t);
+      times.reduce_s = times.reduce_s.value_or(0) + clock.lap();
+      out.peak_rss_bytes = peak_rss_bytes();
+      now.checked = verifier_->check(*summation, step, t);
+      if (step == 1) out.work = work_of(p, *summation);
+      checking += clock.lap();
+    };
+    stopwatch whole;
+    integrator.step(*summation, request_.dt, initial_.gravity, evaluate, t);
+    times.total_s = whole.lap() - checking;
+    times.integrate_s = *times.total_s - *times.index_s - *times.prepare_s - *times.zero_s - *times.sum_s - *times.reduce_s;
+    if (!now.checked.ok) out.error = fmt::format("step {}: {}", step, now.checked.error);
+    out.steps.push_back(std::move(now));
+  }
+  out.lost = summation->lost();
+  return out;
+}
+
+}  // namespace pairsum::harness

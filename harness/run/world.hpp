@@ -1,0 +1,54 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "cases/case.hpp"
+#include "harness/plan/plan.hpp"
+#include "harness/verify/verifier.hpp"
+
+namespace pairsum::harness {
+
+/// One timed (or warming) step of a point.
+struct step_result {
+  phases times;
+  verifier::outcome checked;
+};
+
+/// The particles of one (dx, state), made once, and the measurement of any backend on them.
+class world {
+ public:
+  /// Makes the case and the reference. `dropped` particles lay outside Omega and were left out (--outside drop).
+  world(const run_request& r, double dx, const std::string& state);
+
+  /// Fills in what depends on the case: H and particle numbers.
+  void complete(point& p) const;
+
+  struct result {
+    std::vector<step_result> steps;
+    std::optional<work_row> work;  ///< of the initial state
+    std::optional<std::uint64_t> peak_rss_bytes;
+    std::size_t lost = 0;  ///< particles that left Omega during the steps
+    std::string error;     ///< set if a step was wrong; steps after it were not made
+  };
+
+  /// Loads the initial state and makes the steps. Each step's rates are verified before its times are handed out; a step's verification is
+  /// not part of its times.
+  result measure(const point& p);
+
+  std::size_t dropped() const { return dropped_; }
+
+ private:
+  setup setup_for(const point& p) const;
+  work_row work_of(const point& p, summation& s);
+
+  run_request request_;
+  initial_condition initial_;
+  std::vector<std::uint32_t> order_;
+  std::size_t dropped_ = 0;
+  std::unique_ptr<verifier> verifier_;
+  std::map<std::pair<std::string, int>, work_row> work_;
+};
+
+}  // namespace pairsum::harness

@@ -1,0 +1,56 @@
+#include "harness/verify/verifier.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+/// The expectation as if it were a backend's result, for checking one reference against another.
+rate_table as_rates(const expectation& e, std::size_t rows) {
+  rate_table t{e.names, std::vector<std::vector<double>>(e.names.size(), std::vector<double>(rows))};
+  for (std::size_t c = 0; c < e.names.size(); ++c)
+    for (std::size_t k = 0; k < e.ids.size(); ++k) t.columns[c][e.ids[k]] = e.value[c][k];
+  return t;
+}
+
+}  // namespace
+
+verifier::verifier(const registry& r, const setup& s, particle_table initial, const team& t)
+    : reference_(r.make_reference(s)), initial_(std::move(initial)) {
+  if (initial_.size() <= brute_force_limit) {
+    expected_ = reference_->brute_force(initial_, t);
+    return;
+  }
+  expected_ = reference_->cell_search(initial_, t);
+  const verdict self = compare(as_rates(expected_, initial_.size()), sampled(initial_, 1000, 0, t));
+  if (!self.ok) throw error("the reference contradicts brute force: " + self.error);
+}
+
+expectation verifier::sampled(const particle_table& p, std::size_t n, std::uint64_t seed, const team& t) const {
+  std::vector<std::uint32_t> fluid, chosen;
+  for (std::uint32_t i = 0; i < p.size(); ++i)
+    if (p.kind[i] == particle_kind::fluid) fluid.push_back(i);
+  const counter_random random(seed, 5);
+  for (std::size_t k = 0; k < n && !fluid.empty(); ++k) chosen.push_back(fluid[random.bits(k) % fluid.size()]);
+  if (chosen.empty()) return reference_->brute_force(particle_table(p.dim), t);
+  return reference_->brute_force(p, t, chosen);
+}
+
+verifier::outcome verifier::check(summation& s, int step, const team& t) {
+  outcome o;
+  o.fingerprint = s.fingerprint();
+  if (known_.contains({step, o.fingerprint})) return o;
+  const verdict v = step == 1 ? compare(s.rates(), expected_)
+                              : compare(s.rates(), sampled(s.snapshot(), 64, static_cast<std::uint64_t>(step), t));
+  o.ok = v.ok;
+  o.max_rel_err = v.max_rel_err;
+  o.bound = v.bound;
+  o.error = v.error;
+  if (v.ok) known_.insert({step, o.fingerprint});
+  return o;
+}
+
+}  // namespace pairsum::harness

@@ -1,0 +1,69 @@
+#include "harness/verify/verify_all.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "harness/measure/worker_team.hpp"
+#include "harness/verify/verifier.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+std::string compare_counts(const work_counts& w, const expectation& e) {
+  if (w.pairs_fluid_fluid == e.pairs_fluid_fluid && w.pairs_fluid_boundary == e.pairs_fluid_boundary) return {};
+  return fmt::format("sums {} fluid-fluid and {} fluid-boundary pairs, the reference {} and {}", w.pairs_fluid_fluid,
+                     w.pairs_fluid_boundary, e.pairs_fluid_fluid, e.pairs_fluid_boundary);
+}
+
+verify_line check_one(const registry& r, const initial_condition& c, const setup& s, int threads, verifier& oracle,
+                      std::map<std::string, std::uint64_t>& bits) {
+  verify_line line{s.interaction, s.backend, s.M, threads, true, 0, {}};
+  const auto summation = r.make_summation(s);
+  const worker_team workers(summation->traits().threads, threads);
+  summation->load(c.particles, {});
+  summation->evaluate(workers.get());
+  const verifier::outcome o = oracle.check(*summation, 1, workers.get());
+  line.ok = o.ok;
+  line.error = o.error;
+  if (o.bound && *o.bound > 0) line.share = *o.max_rel_err / *o.bound;
+  const std::string counts = compare_counts(summation->count_work(), oracle.initial_expectation());
+  if (line.ok && !counts.empty()) line.error = counts;
+  const auto [known, is_new] = bits.emplace(fmt::format("{} {}", s.backend, s.M), o.fingerprint);
+  if (line.error.empty() && summation->traits().deterministic && !is_new && known->second != o.fingerprint)
+    line.error = "claims equal bits for every number of threads, but they differ";
+  line.ok = line.error.empty();
+  return line;
+}
+
+}  // namespace
+
+bool verify_all(const registry& r, const initial_condition& c, const verify_plan& plan,
+                const std::function<void(const verify_line&)>& report) {
+  bool all_ok = true;
+  setup s = plan.base;
+  s.omega_low = c.omega_low;
+  s.omega_high = c.omega_high;
+  s.constants = {c.H, c.eos};
+  for (const std::string& backend : plan.backends) r.find_backend(backend);
+  for (const std::string& interaction : plan.interactions) {
+    s.interaction = interaction;
+    const worker_team all(runtime::omp, plan.threads.back());
+    verifier oracle(r, s, c.particles, all.get());
+    std::map<std::string, std::uint64_t> bits;
+    for (const std::string& backend : plan.backends)
+      for (const int M : plan.M)
+        for (const int threads : plan.threads) {
+          const bool serial = r.find_backend(backend).traits.threads == runtime::serial;
+          if (serial && threads != plan.threads.front()) continue;
+          s.backend = backend;
+          s.M = M;
+          const verify_line line = check_one(r, c, s, serial ? 1 : threads, oracle, bits);
+          all_ok = all_ok && line.ok;
+          report(line);
+        }
+  }
+  return all_ok;
+}
+
+}  // namespace pairsum::harness

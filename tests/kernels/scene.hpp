@@ -1,0 +1,66 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "core/tbb_arena.hpp"
+#include "sum/registry.hpp"
+
+/// What the tests of the library share: small worlds, teams, and the comparison of rates with an expectation.
+namespace pairsum::test_kit {
+
+/// Particles and the setup of the world they live in.
+struct scene {
+  particle_table particles;
+  setup world;
+};
+
+/// A case as a scene; M is left at the setup's default.
+scene make_scene(std::string_view name, double dx, std::string_view state, std::uint64_t seed = 1);
+
+/// The scene with other words in its setup.
+setup with(setup s, std::string_view backend, int M, std::string_view interaction = "ferrari09");
+
+/// The team a backend with these traits takes, with its arena. A serial backend gets an OpenMP team, for its index.
+class workers {
+ public:
+  workers(runtime kind, int threads) : kind_(kind), threads_(threads), arena_(threads) {}
+  team get() {
+    return kind_ == runtime::tbb ? team::tbb(threads_, arena_) : team::omp(threads_);
+  }
+
+ private:
+  runtime kind_;
+  int threads_;
+  tbb_arena arena_;
+};
+
+/// The names of all backends, unavailable ones left out.
+std::vector<std::string> backend_names();
+
+/// A summation that has been loaded and evaluated once.
+std::unique_ptr<summation> evaluated(const setup& s, const particle_table& p, int threads = 1);
+
+/// How the rates differ from what the reference says: "" if every entry is within its bound, else the first one that is not. Rows
+/// the reference did not evaluate must be 0 if it evaluated all fluid (`complete`).
+std::string disagreement(const rate_table& rates, const expectation& e, bool complete = true);
+
+/// An OpenMP team for the references.
+inline team some_threads() { return team::omp(2); }
+
+/// The message of the pairsum::error that f throws, or "" if it throws none.
+template <class F>
+std::string error_of(F&& f) {
+  try {
+    f();
+  } catch (const error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// Does `text` contain all of `words`?
+bool says(const std::string& text, const std::vector<std::string>& words);
+
+}  // namespace pairsum::test_kit

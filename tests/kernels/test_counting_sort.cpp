@@ -1,0 +1,97 @@
+#include "grid/counting_sort.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/random.hpp"
+#include "particles/reorder.hpp"
+#include "scene.hpp"
+
+namespace pairsum {
+namespace {
+
+using order = std::vector<std::uint32_t>;
+
+order random_keys(std::size_t n, int bits, std::uint64_t seed) {
+  const counter_random random(seed);
+  order keys(n);
+  for (std::size_t k = 0; k < n; ++k) keys[k] = static_cast<std::uint32_t>(random.bits(k) >> (64 - bits));
+  return keys;
+}
+
+order by_the_standard_library(const order& keys) {
+  order o(keys.size());
+  std::iota(o.begin(), o.end(), 0u);
+  std::ranges::stable_sort(o, {}, [&](std::uint32_t i) { return keys[i]; });
+  return o;
+}
+
+order sorted(counting_sort& s, const order& keys, int bits, const team& t) {
+  s.sort(keys, bits, t);
+  return {s.order().begin(), s.order().end()};
+}
+
+class counting_sort_test : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(size, counting_sort_test, testing::Values(0, 1, 2, 1000, 100000));
+
+TEST_P(counting_sort_test, equals_stable_sort_for_every_team) {
+  tbb_arena one(1), two(2), three(3), seven(7);
+  const std::vector<team> teams{team(),       team::omp(1),      team::omp(2),      team::omp(3),
+                                team::omp(7), team::tbb(1, one), team::tbb(2, two), team::tbb(3, three),
+                                team::tbb(7, seven)};
+  counting_sort s;  // one object for all: what it keeps from call to call must not matter
+  for (int bits = 1; bits <= 32; bits += GetParam() > 1000 ? 3 : 1) {
+    const order keys = random_keys(GetParam(), bits, 7u + static_cast<unsigned>(bits));
+    const order expected = by_the_standard_library(keys);
+    for (std::size_t k = 0; k < teams.size(); ++k)
+      ASSERT_EQ(sorted(s, keys, bits, teams[k]), expected) << bits << " bits, team " << k;
+  }
+}
+
+TEST(counting_sort, extreme_keys) {
+  counting_sort s;
+  for (const int bits : {1, 11, 12, 22, 23, 30, 31, 32}) {
+    const std::uint32_t last = static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1);
+    const order keys{last, 0, last, 1, 0, last - 1, last};
+    EXPECT_EQ(sorted(s, keys, bits, team::omp(3)), by_the_standard_library(keys)) << bits << " bits";
+  }
+}
+
+TEST(counting_sort, order_of_equal_keys_is_kept) {
+  counting_sort s;
+  EXPECT_EQ(sorted(s, {5, 5, 1, 5, 1}, 3, team::omp(2)), (order{2, 4, 0, 1, 3}));
+}
+
+TEST(reorderer, moves_a_range_of_every_column_of_every_width) {
+  for (const int threads : {1, 2, 3, 7}) {
+    particle_set<3, double> p;
+    p.resize(6);
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      for (int d = 0; d < 3; ++d) p.x[d][i] = 10 * d + i, p.v[d][i] = -(10 * d + 1.0 * i);
+      p.rho[i] = 100 + i;
+      p.m[i] = 200 + i;
+      p.id[i] = i;
+      p.kind[i] = i < 3 ? particle_kind::fluid : particle_kind::boundary;
+    }
+    reorderer r;
+    const order source{5, 2, 4, 3};  // elements 2..5 become 5, 2, 4, 3
+    r.apply(p, 2, source, team::omp(threads));
+    const order expected{0, 1, 5, 2, 4, 3};
+    for (std::size_t k = 0; k < 6; ++k) {
+      const std::uint32_t i = expected[k];
+      EXPECT_EQ(p.id[k], i);
+      for (int d = 0; d < 3; ++d) {
+        EXPECT_EQ(p.x[d][k], 10 * d + i);
+        EXPECT_EQ(p.v[d][k], -(10 * d + 1.0 * i));
+      }
+      EXPECT_EQ(p.rho[k], 100 + i);
+      EXPECT_EQ(p.m[k], 200 + i);
+      EXPECT_EQ(p.kind[k], i < 3 ? particle_kind::fluid : particle_kind::boundary);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pairsum

@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include "scene.hpp"
+
+namespace pairsum {
+namespace {
+
+using namespace test_kit;
+
+class determinism_test : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(backend, determinism_test, testing::ValuesIn(backend_names()),
+                         [](const auto& i) { return i.param; });
+
+/// Bit equality over thread counts, runs, and objects, for backends that claim it.
+TEST_P(determinism_test, fingerprint_is_the_same_for_every_number_of_threads) {
+  const auto& traits = registry::instance().find_backend(GetParam()).traits;
+  if (!traits.deterministic) GTEST_SKIP() << GetParam() << " does not claim to be deterministic";
+  const scene s = make_scene("dam_break", 0.045, "perturbed");
+  for (const int M : {2, 4, 6}) {
+    const setup world = with(s.world, GetParam(), M);
+    const auto expected = evaluated(world, s.particles, 1)->fingerprint();
+    const auto sum = registry::instance().make_summation(world);
+    for (const int threads : {1, 2, 3, 7}) {
+      workers w(traits.threads, threads);
+      for (int run = 0; run < 3; ++run) {
+        sum->load(s.particles, {});
+        sum->evaluate(w.get());
+        ASSERT_EQ(sum->fingerprint(), expected) << "M=" << M << " threads=" << threads;
+        sum->evaluate(w.get());
+        ASSERT_EQ(sum->fingerprint(), expected) << "second evaluation of the same state";
+      }
+    }
+  }
+}
+
+TEST_P(determinism_test, fingerprint_sees_one_bit) {
+  scene s = make_scene("dam_break", 0.08, "perturbed");
+  const setup world = with(s.world, GetParam(), 4);
+  const auto before = evaluated(world, s.particles)->fingerprint();
+  s.particles.v[0][17] = std::nextafter(s.particles.v[0][17], 1e9);
+  EXPECT_NE(evaluated(world, s.particles)->fingerprint(), before);
+}
+
+/// The symmetric passes visit the same pairs in the same order, whoever runs them.
+TEST(determinism, symmetric_passes_agree_to_the_bit) {
+  const scene s = make_scene("dam_break", 0.045, "perturbed");
+  const auto expected = evaluated(with(s.world, "symmetric", 5), s.particles)->fingerprint();
+  for (const std::string name : {"symmetric_omp", "symmetric_tbb"})
+    EXPECT_EQ(evaluated(with(s.world, name, 5), s.particles, 3)->fingerprint(), expected) << name;
+  const auto gather = evaluated(with(s.world, "naive", 5), s.particles)->fingerprint();
+  for (const std::string name : {"naive_omp", "naive_tbb"})
+    EXPECT_EQ(evaluated(with(s.world, name, 5), s.particles, 3)->fingerprint(), gather) << name;
+}
+
+/// In id order, whatever the order of memory: equal rates have equal fingerprints.
+TEST(determinism, fingerprint_does_not_depend_on_the_order_of_memory) {
+  const scene s = make_scene("dam_break", 0.08, "perturbed");
+  const auto sum = registry::instance().make_summation(with(s.world, "symmetric", 4, "count"));
+  sum->load(s.particles, {});
+  sum->evaluate(team());
+  const auto expected = sum->fingerprint();
+  std::vector<std::uint32_t> backwards;
+  for (auto i = static_cast<std::uint32_t>(s.particles.size()); i > 0; --i) backwards.push_back(i - 1);
+  sum->load(s.particles, backwards);
+  sum->evaluate(team());
+  EXPECT_EQ(sum->fingerprint(), expected);
+}
+
+}  // namespace
+}  // namespace pairsum

@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene.hpp"
+
+// The talk's dam break at full size: what is known exactly about it.
+namespace pairsum {
+namespace {
+
+using namespace test_kit;
+
+const scene& full_size(const std::string& state) {
+  static const scene rest = make_scene("dam_break", 0.00594, "rest");
+  static const scene perturbed = make_scene("dam_break", 0.00594, "perturbed");
+  return state == "rest" ? rest : perturbed;
+}
+
+TEST(full_size, has_the_particles_of_the_talk) {
+  const particle_table& p = full_size("rest").particles;
+  EXPECT_EQ(p.count(particle_kind::fluid), 1000000u);
+  EXPECT_EQ(p.count(particle_kind::boundary), 1014966u);
+  EXPECT_EQ(p.size(), 2014966u);
+  EXPECT_NEAR(p.m.front(), 2.0342e-4, 0.5e-8);
+  EXPECT_DOUBLE_EQ(p.m.front(), 1000 * std::pow(0.6 - 2 * 0.00594, 3) / 1e6);
+  EXPECT_EQ(full_size("rest").world.constants.H, 2 * 0.00594);
+}
+
+struct expected_work {
+  int M;
+  std::uint64_t symmetric, naive;
+};
+
+/// Every backend at M = 7; at the other M, one of each way of finding pairs.
+TEST(full_size, every_backend_finds_the_known_numbers_of_pairs) {
+  const scene& s = full_size("rest");
+  for (const expected_work& e : {expected_work{6, 182508938, 284698438},
+                                 expected_work{7, 135107738, 237297238},
+                                 expected_work{9, 111877100, 214066600}}) {
+    const std::vector<std::string> three{"naive", "symmetric", "pair_list"};
+    for (const std::string& name : e.M == 7 ? backend_names() : three) {
+      SCOPED_TRACE(name + " M=" + std::to_string(e.M));
+      const auto sum = registry::instance().make_summation(with(s.world, name, e.M));
+      workers w(sum->traits().threads, 2);
+      sum->load(s.particles, {});
+      sum->index(w.get());
+      const work_counts n = sum->count_work();
+      EXPECT_EQ(n.pairs_fluid_fluid, 12731796u);
+      EXPECT_EQ(n.pairs_fluid_boundary, 860542u);
+      EXPECT_EQ(n.pairs_interacting(), 13592338u);
+      EXPECT_EQ(n.pairs_tested, sum->traits().symmetric ? e.symmetric : e.naive);
+      EXPECT_EQ(n.cells, std::uint64_t{1} << 3 * e.M);
+    }
+  }
+}
+
+TEST(full_size, a_particle_deep_inside_has_26_neighbours) {
+  const scene& s = full_size("rest");
+  const particle_table& p = s.particles;
+  std::uint32_t nearest = 0;
+  const auto distance = [&](std::uint32_t i) {
+    return std::hypot(p.x[0][i] - 0.3, p.x[1][i] - 0.3, p.x[2][i] - 0.3);
+  };
+  for (std::uint32_t i = 0; i < 1000000; ++i)
+    if (distance(i) < distance(nearest)) nearest = i;
+  const auto sum = evaluated(with(s.world, "symmetric_omp", 7, "count"), p, 2);
+  const rate_table rates = sum->rates();
+  EXPECT_EQ(rates.names.at(0), "neighbours");
+  EXPECT_EQ(rates.columns[0][nearest], 26);
+  double sides = 0;
+  for (const double n : rates.columns[0]) sides += n;
+  EXPECT_EQ(sides, 2.0 * 12731796 + 860542);
+}
+
+TEST(full_size, cell_search_agrees_with_brute_force_on_sampled_particles) {
+  const scene& s = full_size("perturbed");
+  const auto oracle = registry::instance().make_reference(with(s.world, "naive", 7));
+  const expectation all = oracle->cell_search(s.particles, some_threads());
+  ASSERT_EQ(all.ids.size(), 1000000u);
+  std::vector<std::uint32_t> sample;
+  for (std::uint32_t k = 0; k < 50; ++k) sample.push_back(k * 20011u % 1000000u);
+  const expectation some = oracle->brute_force(s.particles, some_threads(), sample);
+  for (std::size_t c = 0; c < all.value.size(); ++c)
+    for (std::size_t k = 0; k < sample.size(); ++k) {
+      const std::uint32_t i = sample[k];
+      ASSERT_EQ(all.ids[i], i);
+      EXPECT_NE(some.magnitude[c][k], 0);
+      EXPECT_LE(std::abs(all.value[c][i] - some.value[c][k]), some.bound[c][k]);
+      EXPECT_NEAR(all.bound[c][i], some.bound[c][k], 1e-9 * some.bound[c][k]);
+    }
+  // and a backend with it, on every particle
+  const auto sum = evaluated(with(s.world, "symmetric_omp", 7), s.particles, 2);
+  EXPECT_EQ(disagreement(sum->rates(), all), "");
+  const work_counts n = sum->count_work();
+  EXPECT_EQ(n.pairs_fluid_fluid, all.pairs_fluid_fluid);
+}
+
+}  // namespace
+}  // namespace pairsum

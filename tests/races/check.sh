@@ -1,0 +1,65 @@
+#!/bin/sh
+# Runs race_main under ThreadSanitizer with Archer and judges what it says.
+#
+#   check.sh archer PROGRAM ARCHER                 Archer must say that it is there
+#   check.sh clean PROGRAM ARCHER NAME             NAME of the library: status 0, done, not one report
+#   check.sh planted PROGRAM ARCHER NAME           NAME is racy: a data race must be reported, in the phase sum, and nowhere before
+#
+# ARCHER is libarcher.so, which tells ThreadSanitizer what OpenMP synchronises; libomp itself is not instrumented.
+set -u
+mode=$1 program=$2 archer=$3 name=${4:-}
+race_status=66
+output=$(mktemp) || exit 1
+trap 'rm -f "$output"' EXIT
+
+fail() {
+  echo "races: $*"
+  echo "--- the last lines of the program"
+  tail -n 80 "$output"
+  exit 1
+}
+
+unset OMP_THREAD_LIMIT OMP_NUM_THREADS OMP_PROC_BIND OMP_PLACES OMP_TOOL
+export OMP_DYNAMIC=false OMP_WAIT_POLICY=passive OMP_TOOL_LIBRARIES="$archer"
+options="ignore_noninstrumented_modules=1 exitcode=$race_status"
+# ThreadSanitizer wants its addresses where it expects them, which newer kernels' randomisation prevents.
+fixed=
+if setarch "$(uname -m)" -R true 2>/dev/null; then fixed="setarch $(uname -m) -R"; fi
+
+# run TSAN_OPTIONS ARGUMENT...: fills $output and $status
+run() {
+  tsan=$1
+  shift
+  TSAN_OPTIONS="$tsan" $fixed "$program" "$@" >"$output" 2>&1
+  status=$?
+}
+
+case $mode in
+  archer)
+    export ARCHER_OPTIONS="verbose=1"
+    run "$options" --list
+    [ $status -eq 0 ] || fail "race_main --list exits with $status"
+    grep -i 'archer detected' "$output" || fail "Archer is not detected ($archer); install libomp-14-dev"
+    ;;
+  clean)
+    run "$options" --backend "$name"
+    reports=$(grep -c 'WARNING: ThreadSanitizer' "$output")
+    [ "$reports" -eq 0 ] || fail "$name: $reports reports"
+    [ $status -eq 0 ] || fail "$name exits with $status"
+    grep -q "^race_main: $name done\$" "$output" || fail "$name did not finish"
+    grep '^race_main: .* fluid particles' "$output"
+    echo "races: $name: no report"
+    ;;
+  planted)
+    run "$options halt_on_error=1" --planted "$name"
+    [ $status -eq $race_status ] || fail "planted $name exits with $status, not with $race_status"
+    grep -q 'WARNING: ThreadSanitizer: data race' "$output" || fail "planted $name: no data race reported"
+    phase=$(sed -n '/WARNING: ThreadSanitizer/q; s/^race_main: phase //p' "$output" | tail -n 1)
+    [ "$phase" = sum ] || fail "planted $name: the report is of phase ${phase:-(none)}, not of sum"
+    echo "races: planted $name: data race reported in phase sum"
+    ;;
+  *)
+    echo "usage: check.sh archer|clean|planted PROGRAM ARCHER [NAME]" >&2
+    exit 2
+    ;;
+esac

@@ -1,0 +1,59 @@
+"""What holds for every script: it parses, may be run, names no host, asks nothing."""
+import os
+import re
+import subprocess
+
+import pytest
+
+from conftest import ROOT, SCRIPTS
+
+
+@pytest.mark.parametrize("name", SCRIPTS)
+def test_it_parses(name):
+    done = subprocess.run(["bash", "-n", ROOT / name], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("name", SCRIPTS)
+def test_it_names_no_host_and_no_folder_of_a_user(name):
+    text = (ROOT / name).read_text()
+    assert not re.search(r"https?://|/home/|/root/|/work/", text)
+
+
+@pytest.mark.parametrize("name", [name for name in SCRIPTS if "harness" not in name])
+def test_it_may_be_run(name):
+    assert os.access(ROOT / name, os.X_OK)
+    text = (ROOT / name).read_text()
+    assert text.startswith("#!/usr/bin/env bash\n") and "\nset -euo pipefail\n" in text
+
+
+def test_run_tests_ends_with_ctest(sandbox):
+    done = sandbox.run("./run_tests.sh", "--no-install", "--jobs", "2")
+    assert done.returncode == 0, done.stderr
+    calls = [call for call in sandbox.calls() if not call.startswith("python -c")]
+    python = sandbox.environment["PYTHON"]
+    assert calls[0].startswith(f"cmake --preset dev -DPython3_EXECUTABLE={python}")
+    assert calls[1] == "cmake --build --preset dev --parallel 2"
+    assert calls[2].startswith("ctest --preset dev ") and len(calls) == 3
+
+
+def test_run_tests_returns_the_status_of_ctest(sandbox):
+    sandbox.stub("ctest", "#!/bin/bash\necho summary of ctest\nexit 8\n")
+    done = sandbox.run("./run_tests.sh", "--no-install")
+    assert done.returncode == 8
+    assert done.stdout.splitlines()[-1] == "summary of ctest"
+
+
+def test_continuous_integration_runs_the_study_first_and_the_tests_last(sandbox):
+    sandbox.stub("ctest", "#!/bin/bash\necho ctest >>\"$LOG\"\necho summary of ctest\n")
+    done = sandbox.run(".ci/run", "--no-install", CI="true")
+    assert done.returncode == 0, done.stderr
+    assert "--study quick" in sandbox.calls("pairsum run")[0]
+    assert sandbox.calls()[-1] == "ctest"
+    assert done.stdout.splitlines()[-1] == "summary of ctest"
+
+
+def test_continuous_integration_stops_at_a_failing_study(sandbox):
+    done = sandbox.run(".ci/run", "--no-install", STUB_FAILS="verify", STUB_STATUS="1")
+    assert done.returncode == 1
+    assert sandbox.calls("ctest") == []
