@@ -33,8 +33,7 @@ void check_positive(const char* what, double value) {
 
 }  // namespace
 
-void check_request(const run_request& r) {
-  const registry& all = registry::instance();
+void check_request(const run_request& r, const registry& all) {
   std::vector<std::string_view> cases;
   for (const case_entry& c : case_entries()) cases.push_back(c.name);
   check_word("case", r.case_name, cases);
@@ -65,7 +64,7 @@ void check_request(const run_request& r) {
     throw error(fmt::format("a study's name is a folder's name: no slash, no blank, no leading dot, is \"{}\"", r.study));
 }
 
-std::vector<world_plan> expand(const run_request& r) {
+std::vector<world_plan> expand(const run_request& r, const registry& all) {
   std::vector<world_plan> worlds;
   for (const double dx : r.dx)
     for (const std::string& state : r.states) {
@@ -88,7 +87,7 @@ std::vector<world_plan> expand(const run_request& r) {
             p.grid = r.grid;
             p.M = M;
             p.isa = compiled_isa();
-            const bool serial = registry::instance().find_backend(backend).traits.threads == runtime::serial;
+            const bool serial = all.find_backend(backend).traits.threads == runtime::serial;
             p.threads = serial ? 1 : threads;
             if (std::ranges::find(w.points, p) == w.points.end()) w.points.push_back(p);
           }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "harness/rows/row.hpp"
+#include "sum/registry.hpp"
 
 namespace pairsum::harness {
 
@@ -27,7 +28,7 @@ struct run_request {
 
 /// Throws pairsum::error, in one line, for a request that makes no sense (unknown words, numbers out of range), before anything is
 /// computed or written.
-void check_request(const run_request& r);
+void check_request(const run_request& r, const registry& all = registry::instance());
 
 /// One world: the points of a world share particles and reference.
 struct world_plan {
@@ -37,7 +38,7 @@ struct world_plan {
 };
 
 /// The points, grouped by world. A serial backend appears once per M, with 1 thread.
-std::vector<world_plan> expand(const run_request& r);
+std::vector<world_plan> expand(const run_request& r, const registry& all = registry::instance());
 
 /// The order in which repetition `repetition` measures `n` points: a permutation that depends on (seed, repetition) alone.
 std::vector<std::size_t> shuffled_order(std::size_t n, std::uint64_t seed, int repetition);

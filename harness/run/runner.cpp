@@ -27,10 +27,10 @@ std::string label(const point& p) {
 /// One invocation: a round of the rows file.
 class session {
  public:
-  session(const run_request& r, const std::filesystem::path& out)
-      : request_(r), round_(last_round(out) + 1), writer_(out), environment_(describe_environment(r.study)) {
+  session(const registry& all, const run_request& r, const std::filesystem::path& out)
+      : registry_(all), request_(r), round_(last_round(out) + 1), writer_(out), environment_(describe_environment(r.study)) {
     writer_.write(environment_);
-    for (const world_plan& w : expand(r)) plans_.push_back({w, nullptr});
+    for (const world_plan& w : expand(r, all)) plans_.push_back({w, nullptr});
     std::size_t points = 0;
     for (const auto& p : plans_) points += p.plan.points.size();
     progress_ = std::make_unique<progress>(static_cast<double>(points) * (request_.repetitions + warm_up_cost));
@@ -74,7 +74,7 @@ class session {
   void prepare(planned& p) {
     if (interrupted) return;
     progress_->show(done_, fmt::format("reference for dx={} {}", p.plan.dx, p.plan.state));
-    p.made = std::make_unique<world>(request_, p.plan.dx, p.plan.state);
+    p.made = std::make_unique<world>(registry_, request_, p.plan.dx, p.plan.state);
     if (p.made->dropped() > 0)
       note(fmt::format("{} particles outside Omega were dropped (dx={} {})", p.made->dropped(), p.plan.dx, p.plan.state));
     std::vector<point> good;
@@ -152,6 +152,7 @@ class session {
     std::fflush(stdout);
   }
 
+  const registry& registry_;
   run_request request_;
   int round_;
   row_writer writer_;
@@ -171,14 +172,14 @@ std::filesystem::path default_rows_path(const std::filesystem::path& results, co
   return results / study / fmt::format("{}-{}-{}.jsonl", e.host, utc_stamp(), e.git + (e.dirty ? "-dirty" : ""));
 }
 
-int run(const run_request& r, const std::filesystem::path& out) {
-  check_request(r);
+int run(const run_request& r, const std::filesystem::path& out, const registry& all) {
+  check_request(r, all);
   keep_freed_memory();
   struct sigaction action {};
   action.sa_handler = on_interrupt;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  session s(r, out);
+  session s(all, r, out);
   const int cores = usable_cores();
   for (const int t : r.threads)
     if (t > cores) fmt::print("note: {} threads on {} cores\n", t, cores);

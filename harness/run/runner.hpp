@@ -13,6 +13,6 @@ std::filesystem::path default_rows_path(const std::filesystem::path& results, co
 /// and nothing timed is kept, then repetitions in seeded, recorded, interleaved order, until the wanted number is reached or
 /// the budget would be exceeded (one repetition is always made). Prints a table to stdout. SIGINT ends the run after the step
 /// under way; rows written are valid. Returns the exit code: 0, 1 if a point failed its verification, 130 after SIGINT.
-int run(const run_request& r, const std::filesystem::path& out);
+int run(const run_request& r, const std::filesystem::path& out, const registry& all = registry::instance());
 
 }  // namespace pairsum::harness

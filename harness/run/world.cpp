@@ -11,7 +11,8 @@
 
 namespace pairsum::harness {
 
-world::world(const run_request& r, double dx, const std::string& state) : request_(r) {
+world::world(const registry& all, const run_request& r, double dx, const std::string& state)
+    : registry_(all), request_(r) {
   initial_ = make_case(r.case_name, {r.dim, dx, r.H, state, r.seed});
   if (r.outside == "drop") dropped_ = drop_outside(initial_.particles, initial_.omega_low, initial_.omega_high);
   point any;
@@ -20,8 +21,8 @@ world::world(const run_request& r, double dx, const std::string& state) : reques
   const setup s = setup_for(any);
   check_input(initial_.particles, s);
   order_ = memory_order(r.order, initial_, r.seed);
-  const worker_team all(runtime::omp, usable_cores());
-  verifier_ = std::make_unique<verifier>(registry::instance(), s, initial_.particles, all.get());
+  const worker_team workers(runtime::omp, usable_cores());
+  verifier_ = std::make_unique<verifier>(registry_, s, initial_.particles, workers.get());
 }
 
 setup world::setup_for(const point& p) const {
@@ -57,7 +58,7 @@ work_row world::work_of(const point& p, summation& s) {
 
 world::result world::measure(const point& p) {
   result out;
-  const auto summation = registry::instance().make_summation(setup_for(p));
+  const auto summation = registry_.make_summation(setup_for(p));
   const worker_team workers(summation->traits().threads, p.threads);
   const team& t = workers.get();
   const integrator_entry& integrator = find_integrator(request_.integrator);

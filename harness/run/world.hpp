@@ -20,7 +20,7 @@ struct step_result {
 class world {
  public:
   /// Makes the case and the reference. `dropped` particles lay outside Omega and were left out (--outside drop).
-  world(const run_request& r, double dx, const std::string& state);
+  world(const registry& all, const run_request& r, double dx, const std::string& state);
 
   /// Fills in what depends on the case: H and particle numbers.
   void complete(point& p) const;
@@ -43,6 +43,7 @@ class world {
   setup setup_for(const point& p) const;
   work_row work_of(const point& p, summation& s);
 
+  const registry& registry_;
   run_request request_;
   initial_condition initial_;
   std::vector<std::uint32_t> order_;

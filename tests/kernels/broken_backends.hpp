@@ -5,8 +5,9 @@
 #include "sum/block.hpp"
 #include "sum/summation_of.hpp"
 
-// Backends that are wrong in one pair, to show that verification rejects them: the talk's passes, serial and plain, with a
-// fault planted in the first fluid pair they meet whose contribution to j is not zero.
+// Backends that are wrong in one pair, to show that verification rejects them: the talk's passes,
+// serial and plain, with a fault planted in the first fluid pair they meet whose contribution to j
+// is not zero.
 namespace pairsum {
 
 enum class fault {
@@ -61,9 +62,11 @@ struct broken_symmetric {
    private:
     /// sumF1 (one cell, `same`) or sumF2 (two cells).
     template <class Probe>
-    void sum_cells(const problem<I>& p, const cell_range& a, const cell_range& b, bool same, Probe& probe) {
+    void sum_cells(const problem<I>& p, const cell_range& a, const cell_range& b, bool same,
+                   Probe& probe) {
       for (auto i = a.fluid_begin; i < a.fluid_end; ++i)
-        for (auto j = same ? i + 1 : b.fluid_begin; j < b.fluid_end; ++j) fluid_pair(p, i, j, probe);
+        for (auto j = same ? i + 1 : b.fluid_begin; j < b.fluid_end; ++j)
+          fluid_pair(p, i, j, probe);
       sum_walls(p, a, b, probe);
       if (!same) sum_walls(p, b, a, probe);
     }
@@ -90,7 +93,8 @@ struct broken_symmetric {
     }
 
     template <class Probe>
-    void sum_walls(const problem<I>& p, const cell_range& fluid, const cell_range& wall, Probe& probe) {
+    void sum_walls(const problem<I>& p, const cell_range& fluid, const cell_range& wall,
+                   Probe& probe) {
       for (auto i = fluid.fluid_begin; i < fluid.fluid_end; ++i)
         for (auto b = wall.boundary_begin; b < wall.boundary_end; ++b) {
           probe.tested(1);

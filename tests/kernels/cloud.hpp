@@ -12,8 +12,9 @@ namespace pairsum::test_kit {
 
 /// Where the particles of a random cloud lie.
 enum class shape { uniform, clustered, coincident, one_cell, line, plane, cell_faces };
-inline const std::vector<shape> shapes{shape::uniform,  shape::clustered, shape::coincident, shape::one_cell,
-                                       shape::line,     shape::plane,     shape::cell_faces};
+inline const std::vector<shape> shapes{shape::uniform,   shape::clustered, shape::coincident,
+                                       shape::one_cell,  shape::line,      shape::plane,
+                                       shape::cell_faces};
 
 /// A random cloud, described by a few numbers so that a failing one can be made again.
 struct cloud {
@@ -40,13 +41,27 @@ inline std::array<double, 3> place_in(const cloud& c, std::uint64_t i) {
   std::array<double, 3> x;
   for (std::uint64_t d = 0; d < 3; ++d) {
     switch (c.form) {
-      case shape::uniform: x[d] = u(d); break;
-      case shape::clustered: x[d] = std::min(center(d) + 0.3 / c.length * u(d), 1.0); break;
-      case shape::coincident: x[d] = center(d); break;
-      case shape::one_cell: x[d] = std::min(1.0, 0.5 / c.length * u(d)); break;
-      case shape::line: x[d] = d == 0 ? u(0) : 0.5; break;
-      case shape::plane: x[d] = d == 1 ? 0.25 : u(d); break;
-      case shape::cell_faces: x[d] = std::min(1.0, std::floor(u(d) * c.length) / c.length); break;
+      case shape::uniform:
+        x[d] = u(d);
+        break;
+      case shape::clustered:
+        x[d] = std::min(center(d) + 0.3 / c.length * u(d), 1.0);
+        break;
+      case shape::coincident:
+        x[d] = center(d);
+        break;
+      case shape::one_cell:
+        x[d] = std::min(1.0, 0.5 / c.length * u(d));
+        break;
+      case shape::line:
+        x[d] = d == 0 ? u(0) : 0.5;
+        break;
+      case shape::plane:
+        x[d] = d == 1 ? 0.25 : u(d);
+        break;
+      case shape::cell_faces:
+        x[d] = std::min(1.0, std::floor(u(d) * c.length) / c.length);
+        break;
     }
   }
   return x;

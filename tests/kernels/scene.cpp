@@ -58,7 +58,8 @@ std::string disagreement(const rate_table& rates, const expectation& e, bool com
     if (!complete) continue;
     for (std::uint32_t i = 0; i < rates.columns[c].size(); ++i)
       if (rates.columns[c][i] != 0 && !seen[i]) {
-        text << rates.names[c] << " of particle " << i << " is " << rates.columns[c][i] << ", not 0";
+        text << rates.names[c] << " of particle " << i << " is " << rates.columns[c][i]
+             << ", not 0";
         return text.str();
       }
   }

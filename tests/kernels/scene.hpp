@@ -4,10 +4,12 @@
 #include <vector>
 
 #include "cases/case.hpp"
+#include "core/error.hpp"
 #include "core/tbb_arena.hpp"
 #include "sum/registry.hpp"
 
-/// What the tests of the library share: small worlds, teams, and the comparison of rates with an expectation.
+/// What the tests of the library share: small worlds, teams, and the comparison of rates with an
+/// expectation.
 namespace pairsum::test_kit {
 
 /// Particles and the setup of the world they live in.
@@ -22,13 +24,12 @@ scene make_scene(std::string_view name, double dx, std::string_view state, std::
 /// The scene with other words in its setup.
 setup with(setup s, std::string_view backend, int M, std::string_view interaction = "ferrari09");
 
-/// The team a backend with these traits takes, with its arena. A serial backend gets an OpenMP team, for its index.
+/// The team a backend with these traits takes, with its arena. A serial backend gets an OpenMP
+/// team, for its index.
 class workers {
  public:
   workers(runtime kind, int threads) : kind_(kind), threads_(threads), arena_(threads) {}
-  team get() {
-    return kind_ == runtime::tbb ? team::tbb(threads_, arena_) : team::omp(threads_);
-  }
+  team get() { return kind_ == runtime::tbb ? team::tbb(threads_, arena_) : team::omp(threads_); }
 
  private:
   runtime kind_;
@@ -42,8 +43,9 @@ std::vector<std::string> backend_names();
 /// A summation that has been loaded and evaluated once.
 std::unique_ptr<summation> evaluated(const setup& s, const particle_table& p, int threads = 1);
 
-/// How the rates differ from what the reference says: "" if every entry is within its bound, else the first one that is not. Rows
-/// the reference did not evaluate must be 0 if it evaluated all fluid (`complete`).
+/// How the rates differ from what the reference says: "" if every entry is within its bound, else
+/// the first one that is not. Rows the reference did not evaluate must be 0 if it evaluated all
+/// fluid (`complete`).
 std::string disagreement(const rate_table& rates, const expectation& e, bool complete = true);
 
 /// An OpenMP team for the references.
@@ -54,7 +56,7 @@ template <class F>
 std::string error_of(F&& f) {
   try {
     f();
-  } catch (const error& e) {
+  } catch (const pairsum::error& e) {
     return e.what();
   }
   return "";

@@ -2,7 +2,8 @@
 
 #include "scene.hpp"
 
-// Every backend, M and number of threads against brute force, on a state in which every term is alive.
+// Every backend, M and number of threads against brute force, on a state in which every term is
+// alive.
 namespace pairsum {
 namespace {
 

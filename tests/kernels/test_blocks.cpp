@@ -7,7 +7,8 @@
 #include "sum/block.hpp"
 #include "sum/summation_of.hpp"
 
-// The race test on real data, independent of any schedule: which particles each block may write, and which it writes.
+// The race test on real data, independent of any schedule: which particles each block may write,
+// and which it writes.
 namespace pairsum {
 namespace {
 
@@ -38,7 +39,8 @@ INSTANTIATE_TEST_SUITE_P(M, blocks_test, testing::Values(2, 3, 6));
 TEST_P(blocks_test, blocks_of_one_colour_write_different_particles) {
   std::size_t n = 0;
   for (unsigned o = 0; o < 8; ++o) {
-    EXPECT_EQ(conflicts(pass_of(coloured, o), s.index.view(), s.index.fluid()), 0u) << "colour " << o;
+    EXPECT_EQ(conflicts(pass_of(coloured, o), s.index.view(), s.index.fluid()), 0u)
+        << "colour " << o;
     n += coloured[o].size();
   }
   EXPECT_GT(n, 8u);
@@ -59,7 +61,8 @@ TEST_P(blocks_test, every_base_block_with_fluid_is_listed_once) {
   const int mask = (1 << s.M) - 1;
   for (const auto& [c, n] : fluid_cells)
     for (int o = 0; o < 8; ++o)
-      bases.insert({(c[0] - (o & 1)) & mask, (c[1] - (o >> 1 & 1)) & mask, (c[2] - (o >> 2)) & mask});
+      bases.insert(
+          {(c[0] - (o & 1)) & mask, (c[1] - (o >> 1 & 1)) & mask, (c[2] - (o >> 2)) & mask});
   std::vector<std::size_t> per_colour(8, 0);
   for (const auto& b : bases) ++per_colour[(b[0] & 1) | (b[1] & 1) << 1 | (b[2] & 1) << 2];
   for (unsigned o = 0; o < 8; ++o) EXPECT_EQ(coloured[o].size(), per_colour[o]) << "colour " << o;
@@ -73,7 +76,8 @@ TEST_P(blocks_test, lists_are_the_same_for_every_team) {
   }
 }
 
-/// Runs sum_block alone, with a reach that lets every candidate interact, and looks at what changed.
+/// Runs sum_block alone, with a reach that lets every candidate interact, and looks at what
+/// changed.
 TEST_P(blocks_test, sum_block_writes_its_own_cells_alone) {
   using counted = count<3, double>;
   interaction_columns<counted> columns{physics{1, {}}};
@@ -89,11 +93,13 @@ TEST_P(blocks_test, sum_block_writes_its_own_cells_alone) {
       sum_block(p, b, probe);
       std::vector<bool> may(s.index.fluid(), false);
       for (const std::uint32_t cell : b)
-        for (auto i = s.index.view().range[cell].fluid_begin; i < s.index.view().range[cell].fluid_end; ++i)
+        for (auto i = s.index.view().range[cell].fluid_begin;
+             i < s.index.view().range[cell].fluid_end; ++i)
           may[i] = true;
       for (std::size_t i = 0; i < s.index.fluid(); ++i) {
         const bool wrote = p.u.load(i).neighbours != 0;
-        ASSERT_TRUE(may[i] || !wrote) << "block " << k << " of colour " << o << " wrote particle " << i;
+        ASSERT_TRUE(may[i] || !wrote)
+            << "block " << k << " of colour " << o << " wrote particle " << i;
         written += wrote;
       }
     }

@@ -6,7 +6,8 @@
 #include "scene.hpp"
 #include "smoothing/wendland_c2.hpp"
 
-// Verification must reject a backend that is wrong in a single pair, and accept the same backend without the fault.
+// Verification must reject a backend that is wrong in a single pair, and accept the same backend
+// without the fault.
 namespace pairsum {
 namespace {
 

@@ -4,7 +4,8 @@
 
 #include "scene.hpp"
 
-// The reference's cell search against its own brute force: the same pairs, so equal up to the order of a long double sum.
+// The reference's cell search against its own brute force: the same pairs, so equal up to the order
+// of a long double sum.
 namespace pairsum {
 namespace {
 

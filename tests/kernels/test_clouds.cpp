@@ -36,7 +36,8 @@ class clouds_test : public testing::TestWithParam<std::string> {
       workers w(sum->traits().threads, threads);
       sum->load(s.particles, shuffled(s.particles.size(), c.seed));
       sum->evaluate(w.get());
-      const auto expected = registry::instance().make_reference(world)->brute_force(s.particles, team());
+      const auto expected =
+          registry::instance().make_reference(world)->brute_force(s.particles, team());
       RC_ASSERT(disagreement(sum->rates(), expected) == "");
       const work_counts n = sum->count_work();
       RC_ASSERT(n.pairs_fluid_fluid == expected.pairs_fluid_fluid);

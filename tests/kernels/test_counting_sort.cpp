@@ -17,7 +17,8 @@ using order = std::vector<std::uint32_t>;
 order random_keys(std::size_t n, int bits, std::uint64_t seed) {
   const counter_random random(seed);
   order keys(n);
-  for (std::size_t k = 0; k < n; ++k) keys[k] = static_cast<std::uint32_t>(random.bits(k) >> (64 - bits));
+  for (std::size_t k = 0; k < n; ++k)
+    keys[k] = static_cast<std::uint32_t>(random.bits(k) >> (64 - bits));
   return keys;
 }
 
@@ -38,8 +39,14 @@ INSTANTIATE_TEST_SUITE_P(size, counting_sort_test, testing::Values(0, 1, 2, 1000
 
 TEST_P(counting_sort_test, equals_stable_sort_for_every_team) {
   tbb_arena one(1), two(2), three(3), seven(7);
-  const std::vector<team> teams{team(),       team::omp(1),      team::omp(2),      team::omp(3),
-                                team::omp(7), team::tbb(1, one), team::tbb(2, two), team::tbb(3, three),
+  const std::vector<team> teams{team(),
+                                team::omp(1),
+                                team::omp(2),
+                                team::omp(3),
+                                team::omp(7),
+                                team::tbb(1, one),
+                                team::tbb(2, two),
+                                team::tbb(3, three),
                                 team::tbb(7, seven)};
   counting_sort s;  // one object for all: what it keeps from call to call must not matter
   for (int bits = 1; bits <= 32; bits += GetParam() > 1000 ? 3 : 1) {
@@ -55,7 +62,8 @@ TEST(counting_sort, extreme_keys) {
   for (const int bits : {1, 11, 12, 22, 23, 30, 31, 32}) {
     const std::uint32_t last = static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1);
     const order keys{last, 0, last, 1, 0, last - 1, last};
-    EXPECT_EQ(sorted(s, keys, bits, team::omp(3)), by_the_standard_library(keys)) << bits << " bits";
+    EXPECT_EQ(sorted(s, keys, bits, team::omp(3)), by_the_standard_library(keys))
+        << bits << " bits";
   }
 }
 

@@ -34,9 +34,9 @@ struct expected_work {
 /// Every backend at M = 7; at the other M, one of each way of finding pairs.
 TEST(full_size, every_backend_finds_the_known_numbers_of_pairs) {
   const scene& s = full_size("rest");
-  for (const expected_work& e : {expected_work{6, 182508938, 284698438},
-                                 expected_work{7, 135107738, 237297238},
-                                 expected_work{9, 111877100, 214066600}}) {
+  for (const expected_work& e :
+       {expected_work{6, 182508938, 284698438}, expected_work{7, 135107738, 237297238},
+        expected_work{9, 111877100, 214066600}}) {
     const std::vector<std::string> three{"naive", "symmetric", "pair_list"};
     for (const std::string& name : e.M == 7 ? backend_names() : three) {
       SCOPED_TRACE(name + " M=" + std::to_string(e.M));

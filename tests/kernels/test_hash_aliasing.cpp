@@ -2,7 +2,8 @@
 
 #include "cloud.hpp"
 
-// Many cells fold onto one: far particles share a cell, and only the distance test tells them apart.
+// Many cells fold onto one: far particles share a cell, and only the distance test tells them
+// apart.
 namespace pairsum {
 namespace {
 
@@ -13,9 +14,11 @@ class hash_aliasing_test : public testing::TestWithParam<std::string> {
   void expect_agreement(const scene& s, std::uint64_t at_least) const {
     for (const char* interaction : {"ferrari09", "count"}) {
       const setup world = with(s.world, GetParam(), 2, interaction);
-      const auto expected = registry::instance().make_reference(world)->brute_force(s.particles, some_threads());
+      const auto expected =
+          registry::instance().make_reference(world)->brute_force(s.particles, some_threads());
       EXPECT_GE(expected.pairs_fluid_fluid, at_least);
-      EXPECT_EQ(disagreement(evaluated(world, s.particles, 3)->rates(), expected), "") << interaction;
+      EXPECT_EQ(disagreement(evaluated(world, s.particles, 3)->rates(), expected), "")
+          << interaction;
     }
   }
 };

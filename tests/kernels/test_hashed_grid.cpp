@@ -20,7 +20,8 @@ TEST(hashed_grid, refuses_M_outside_its_range) {
     const auto text = error_of([&] { hashed_grid<3, double>(unit, 0.1, M); });
     EXPECT_TRUE(says(text, {"M must be between 2 and 10 in 3D, is " + std::to_string(M)})) << text;
   }
-  EXPECT_TRUE(says(error_of([] { hashed_grid<3, double>(unit, 0.1, 1); }), {"-1 and +1 are one cell"}));
+  EXPECT_TRUE(
+      says(error_of([] { hashed_grid<3, double>(unit, 0.1, 1); }), {"-1 and +1 are one cell"}));
   const box<2, double> square{vec<2, double>(0, 0), vec<2, double>(1, 1)};
   const box<1, double> line{vec<1, double>(0), vec<1, double>(1)};
   EXPECT_TRUE(says(error_of([&] { hashed_grid<2, double>(square, 0.1, 16); }), {"2 and 15 in 2D"}));
@@ -31,8 +32,8 @@ TEST(hashed_grid, refuses_M_outside_its_range) {
 
 TEST(hashed_grid, refuses_M_through_the_registry) {
   const setup s = test_kit::make_scene("dam_break", 0.1, "rest").world;
-  const auto text = error_of(
-      [&] { (void)registry::instance().make_summation(test_kit::with(s, "naive", 40)); });
+  const auto text =
+      error_of([&] { (void)registry::instance().make_summation(test_kit::with(s, "naive", 40)); });
   EXPECT_TRUE(says(text, {"between 2 and 10", "40"})) << text;
 }
 
@@ -58,8 +59,8 @@ class safe_width_test : public testing::Test {
   const R H = R(0.01188);
   static constexpr int wanted = 100000;
 
-  /// Meets `wanted` pairs along axis d that pass the distance test, one particle within an ulp or two of a face of cells of width
-  /// `face`, the other just under H further: how many are `apart`?
+  /// Meets `wanted` pairs along axis d that pass the distance test, one particle within an ulp or
+  /// two of a face of cells of width `face`, the other just under H further: how many are `apart`?
   template <class Apart>
   int count(R face, int d, Apart&& apart) const {
     const counter_random random(11, static_cast<std::uint64_t>(d));
@@ -98,13 +99,14 @@ TYPED_TEST(safe_width_test, pairs_in_reach_are_never_two_cells_apart) {
         for (int k = 0; k < 3; ++k) pair.x[k][0] = a[k], pair.x[k][1] = b[k];
         std::array<std::uint32_t, 2> keys;
         grid.keys(pair, 0, 2, keys);
-        return ((keys[1] >> (d * M)) - (keys[0] >> (d * M)) & mask) > 1;  // on the torus; b > a
+        return (((keys[1] >> (d * M)) - (keys[0] >> (d * M))) & mask) > 1;  // on the torus; b > a
       });
       EXPECT_EQ(apart, 0) << "axis " << d;
     }
 }
 
-/// With w = H exactly the rounding of (x-A)/w does put some of them two cells apart: the pairs are sharp enough to see it.
+/// With w = H exactly the rounding of (x-A)/w does put some of them two cells apart: the pairs are
+/// sharp enough to see it.
 TYPED_TEST(safe_width_test, the_same_pairs_reject_a_width_of_exactly_H) {
   using R = TypeParam;
   int apart = 0;

@@ -84,7 +84,8 @@ TEST_P(indexer_test, neighbours_and_colours_are_those_of_the_torus) {
       const key k{(own[0] + static_cast<int>(n % 3) - 1) & mask,
                   (own[1] + static_cast<int>(n / 3 % 3) - 1) & mask,
                   (own[2] + static_cast<int>(n / 9) - 1) & mask};
-      ASSERT_EQ(c.neighbour(cell, n), at.contains(k) ? at[k] : 0u) << "cell " << cell << " code " << n;
+      ASSERT_EQ(c.neighbour(cell, n), at.contains(k) ? at[k] : 0u)
+          << "cell " << cell << " code " << n;
     }
   }
 }
@@ -95,8 +96,10 @@ std::map<key, std::set<std::uint32_t>> contents(const indexed_scene& s) {
   const cells<3>& c = s.index.view();
   for (std::size_t cell = 1; cell < c.range.size(); ++cell) {
     const cell_range& r = c.range[cell];
-    for (auto i = r.fluid_begin; i < r.fluid_end; ++i) found[s.cell_of(i)].insert(s.particles.id[i]);
-    for (auto i = r.boundary_begin; i < r.boundary_end; ++i) found[s.cell_of(i)].insert(s.particles.id[i]);
+    for (auto i = r.fluid_begin; i < r.fluid_end; ++i)
+      found[s.cell_of(i)].insert(s.particles.id[i]);
+    for (auto i = r.boundary_begin; i < r.boundary_end; ++i)
+      found[s.cell_of(i)].insert(s.particles.id[i]);
   }
   return found;
 }

@@ -51,7 +51,8 @@ TEST_P(lost_test, are_flagged_counted_and_not_summed) {
   }
   EXPECT_EQ(now.count(particle_kind::fluid), fluid - 4u);
   // The rest sums as if those four did not exist, bounds and all.
-  const auto expected = registry::instance().make_reference(world)->brute_force(now, some_threads());
+  const auto expected =
+      registry::instance().make_reference(world)->brute_force(now, some_threads());
   EXPECT_EQ(expected.ids.size(), fluid - 4u);
   EXPECT_EQ(disagreement(rates, expected), "");
 
@@ -72,7 +73,8 @@ TEST_P(lost_test, lost_particles_are_not_moved) {
   const auto sum = evaluated(world, s.particles, 2);
   workers w(sum->traits().threads, 2);
   place(*sum, 5, 1, -0.5);
-  find_integrator("euler").step(*sum, 1e-5, 9.81, [&] { sum->evaluate(w.get()); }, w.get());
+  find_integrator("euler").step(
+      *sum, 1e-5, 9.81, [&] { sum->evaluate(w.get()); }, w.get());
   const particle_table now = sum->snapshot();
   EXPECT_EQ(now.x[1][5], -0.5);
   EXPECT_EQ(now.v[1][5], s.particles.v[1][5]);

@@ -7,14 +7,17 @@
 
 #include "pattern/pattern.hpp"
 
-// The talk's pattern on a torus of even side, for any schedule: each pair of neighbouring cells belongs to one base block, and the blocks
-// of one pass (bases of equal parity) share no cell.
+// The talk's pattern on a torus of even side, for any schedule: each pair of neighbouring cells
+// belongs to one base block, and the blocks of one pass (bases of equal parity) share no cell.
 namespace pairsum {
 namespace {
 
-static_assert(pattern::a(1) == 2 && pattern::a(2) == 5 && pattern::a(3) == 14 && pattern::a(4) == 41);
-static_assert(pattern::b(1) == 1 && pattern::b(2) == 4 && pattern::b(3) == 13 && pattern::b(4) == 40);
-static_assert(pattern::t(1) == 1 && pattern::t(2) == 6 && pattern::t(3) == 28 && pattern::t(4) == 120);
+static_assert(pattern::a(1) == 2 && pattern::a(2) == 5 && pattern::a(3) == 14 &&
+              pattern::a(4) == 41);
+static_assert(pattern::b(1) == 1 && pattern::b(2) == 4 && pattern::b(3) == 13 &&
+              pattern::b(4) == 40);
+static_assert(pattern::t(1) == 1 && pattern::t(2) == 6 && pattern::t(3) == 28 &&
+              pattern::t(4) == 120);
 static_assert(pattern::count_tests<3>() == 28 && pattern::count_tests<4>() == 120);
 static_assert(pattern::block_pairs<3>.size() == 13 && pattern::block_pairs<4>.size() == 40);
 static_assert(pattern::stencil_centre<2> == 4 && pattern::stencil_centre<3> == 13);
@@ -87,7 +90,8 @@ bool passes_are_conflict_free(int side) {
   const torus<D> t{side};
   std::map<std::pair<unsigned, int>, int> owners;
   for (int base = 0; base < t.cells(); ++base)
-    for (unsigned o = 0; o < pattern::block_cells<D>; ++o) ++owners[{t.parity(base), t.at(base, o)}];
+    for (unsigned o = 0; o < pattern::block_cells<D>; ++o)
+      ++owners[{t.parity(base), t.at(base, o)}];
   return std::ranges::all_of(owners, [](const auto& o) { return o.second == 1; });
 }
 

@@ -17,7 +17,7 @@ for argument; do
   case $previous in --out | --summary) out=$argument ;; esac
   previous=$argument
 done
-if [[ $1 == run ]]; then mkdir -p "$(dirname "$out")"; echo '{}' >>"$out"; echo "rows: $out"; fi
+if [[ $1 == run ]]; then mkdir -p "$(dirname "$out")"; echo "{${STUB_ROW-\\"kind\\":\\"sample\\"}}" >>"$out"; echo "rows: $out"; fi
 if [[ $1 == report ]]; then echo "a table"; echo '{}' >"$out"; fi
 if [[ "$*" == *"${STUB_SLOW-nothing}"* ]]; then exec sleep "${STUB_SECONDS:-1}"; fi
 if [[ "$*" == *"${STUB_FAILS-nothing}"* ]]; then exit "$STUB_STATUS"; fi

@@ -1,0 +1,40 @@
+"""Runs the programs that were just built."""
+
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+BIN = pathlib.Path(os.environ["PAIRSUM_BIN"])
+SMALL = ["--dx", "0.08", "--M", "3", "--threads", "1", "--steps", "2", "--repetitions", "1"]
+
+
+@pytest.fixture
+def pairsum(tmp_path):
+    """Calls pairsum in an empty folder; returns the finished process."""
+
+    def call(*words, program="pairsum"):
+        return subprocess.run([BIN / program, *map(str, words)], cwd=tmp_path, text=True, capture_output=True, timeout=120)
+
+    return call
+
+
+@pytest.fixture
+def rows(pairsum, tmp_path):
+    """A small valid rows file."""
+    path = tmp_path / "rows.jsonl"
+    done = pairsum("run", *SMALL, "--out", path)
+    assert done.returncode == 0, done.stderr
+    return path
+
+
+def refused(done, *says):
+    """One line on stderr that says all of `says`, exit code 2, no table on stdout."""
+    assert done.returncode == 2, (done.returncode, done.stdout, done.stderr)
+    lines = done.stderr.strip().splitlines()
+    assert len(lines) == 1, done.stderr
+    assert lines[0].startswith("pairsum: ") or lines[0].startswith("pairsum_bench: "), lines[0]
+    for word in says:
+        assert word in lines[0], lines[0]
+    return True

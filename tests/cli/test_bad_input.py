@@ -1,0 +1,101 @@
+"""Bad input: one clear line, exit code 2, nothing lost or half-written."""
+
+import pytest
+from conftest import SMALL, refused
+
+BAD_RUNS = [
+    (["--M", "0"], ["M must be between 2 and 10"]),
+    (["--M", "1"], ["M must be between 2 and 10", "one cell"]),
+    (["--M", "40"], ["M must be between 2 and 10"]),
+    (["--M", "six"], ["--M", "six"]),
+    (["--threads", "0"], ["threads must be at least 1"]),
+    (["--threads", "-2"], ["threads must be at least 1"]),
+    (["--dx", "-1"], ["dx must be a positive"]),
+    (["--dx", "nan"], ["dx must be a positive"]),
+    (["--dx", "inf"], ["dx must be a positive"]),
+    (["--dx", "0.5"], ["dam_break needs dx"]),
+    (["--H", "nan"], ["H must be a positive"]),
+    (["--H", "-0.1"], ["H must be a positive"]),
+    (["--dt", "0"], ["dt must be a positive"]),
+    (["--backend", "nope"], ["nope", "naive_omp", "symmetric_tbb"]),
+    (["--backend", ""], ["--backend"]),
+    (["--case", "nope"], ["nope", "dam_break"]),
+    (["--state", "nope"], ["nope", "perturbed"]),
+    (["--interaction", "nope"], ["nope", "ferrari09"]),
+    (["--smoothing", "nope"], ["nope", "wendland_c2"]),
+    (["--precision", "nope"], ["nope", "double"]),
+    (["--integrator", "nope"], ["nope", "euler"]),
+    (["--dim", "4"], ["4D"]),
+    (["--steps", "0"], ["steps must be at least 1"]),
+    (["--study", "a/b"], ["study"]),
+    (["--nope"], ["--nope"]),
+    (["--steps", "many"], ["many"]),
+]
+
+
+@pytest.mark.parametrize("words, says", BAD_RUNS, ids=[" ".join(w) for w, _ in BAD_RUNS])
+def test_run_refuses(pairsum, tmp_path, words, says):
+    out = tmp_path / "rows.jsonl"
+    done = pairsum("run", "--out", out, *([] if words[0] in SMALL else SMALL[:2]), *words)
+    assert refused(done, *says)
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("words, says", [
+    (["--M", "1"], ["M must be"]),
+    (["--backend", "nope"], ["symmetric_omp"]),
+    (["--dx", "nan"], ["dx must be"]),
+    (["--threads", "0"], ["threads must be"]),
+    (["--interaction", "nope"], ["count"]),
+])
+def test_verify_refuses(pairsum, words, says):
+    assert refused(pairsum("verify", *words), *says)
+
+
+def test_no_command_and_unknown_command(pairsum):
+    assert refused(pairsum(), "--help")
+    assert refused(pairsum("jump"), "jump")
+
+
+def test_unwritable_folder(pairsum, tmp_path):
+    (tmp_path / "file").write_text("no folder")
+    assert refused(pairsum("run", *SMALL, "--out", tmp_path / "file" / "rows.jsonl"), "file")
+    assert refused(pairsum("run", *SMALL, "--results", "/proc/nope"), "/proc/nope")
+    assert (tmp_path / "file").read_text() == "no folder"
+
+
+def test_run_leaves_foreign_and_cut_files_alone(pairsum, rows):
+    whole = rows.read_bytes()
+    for content in [b"a,b\n1,2\n", b'{"schema":"other"}\n', whole[:-30], b"\x00\x01\x02"]:
+        rows.write_bytes(content)
+        assert refused(pairsum("run", *SMALL, "--out", rows), rows.name)
+        assert rows.read_bytes() == content
+
+
+def test_report_refuses_foreign_cut_missing_and_empty(pairsum, rows, tmp_path):
+    whole = rows.read_bytes()
+    summary = tmp_path / "out" / "summary.json"
+    for content in [b"a,b\n1,2\n", b'{"schema":"other"}\n', whole[:-30], b""]:
+        rows.write_bytes(content)
+        assert refused(pairsum("report", rows, "--summary", summary), rows.name)
+        assert not summary.exists()
+    assert refused(pairsum("report", tmp_path / "missing.jsonl"), "missing.jsonl")
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    assert refused(pairsum("report", empty), "empty")
+
+
+def test_report_into_an_unwritable_folder(pairsum, rows):
+    assert refused(pairsum("report", rows, "--summary", "/proc/nope/summary.json"), "/proc/nope")
+
+
+def test_report_names_line_and_key(pairsum, rows):
+    lines = rows.read_text().splitlines()
+    lines[2] = lines[2].replace('"sum_s":', '"sum_seconds":')
+    rows.write_text("\n".join(lines) + "\n")
+    assert refused(pairsum("report", rows), ":3:", "sum_s")
+
+
+def test_bench_refuses(pairsum):
+    assert refused(pairsum("--M", "1", program="pairsum_bench"), "M must be")
+    assert refused(pairsum("--dx", "-1", program="pairsum_bench"), "dx must be")

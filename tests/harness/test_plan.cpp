@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "harness/plan/plan.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+run_request request() {
+  run_request r;
+  r.backends = {"naive", "naive_omp", "symmetric_tbb"};
+  r.M = {6, 7};
+  r.threads = {1, 2, 4};
+  return r;
+}
+
+TEST(plan, crosses_the_lists_and_runs_serial_backends_once_per_M) {
+  const auto worlds = expand(request());
+  ASSERT_EQ(worlds.size(), 1u);
+  const auto& points = worlds.front().points;
+  EXPECT_EQ(points.size(), 2u * (1 + 3 + 3));
+  EXPECT_EQ(std::ranges::count(points, "naive", &point::backend), 2);
+  for (const point& p : points)
+    if (p.backend == "naive") EXPECT_EQ(p.threads, 1);
+}
+
+TEST(plan, one_world_per_dx_and_state) {
+  run_request r = request();
+  r.dx = {0.02, 0.03};
+  r.states = {"rest", "perturbed"};
+  EXPECT_EQ(expand(r).size(), 4u);
+}
+
+TEST(plan, order_is_a_permutation_that_seed_and_repetition_decide) {
+  auto order = shuffled_order(50, 7, 1);
+  EXPECT_EQ(order, shuffled_order(50, 7, 1));
+  EXPECT_NE(order, shuffled_order(50, 7, 2));
+  EXPECT_NE(order, shuffled_order(50, 8, 1));
+  std::vector<std::size_t> all(50);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  EXPECT_NE(order, all);
+  std::ranges::sort(order);
+  EXPECT_EQ(order, all);
+}
+
+TEST(plan, every_slot_is_reached_by_every_point) {
+  std::vector<std::vector<int>> at(4, std::vector<int>(4, 0));
+  for (int repetition = 1; repetition <= 400; ++repetition) {
+    const auto order = shuffled_order(4, 1, repetition);
+    for (std::size_t slot = 0; slot < 4; ++slot) ++at[order[slot]][slot];
+  }
+  for (const auto& row : at)
+    for (const int n : row) EXPECT_GT(n, 50);  // 100 expected, standard deviation 8.7
+}
+
+template <class Change>
+void expect_refused(Change change, const std::string& says) {
+  run_request r = request();
+  change(r);
+  try {
+    check_request(r);
+    ADD_FAILURE() << "accepted, should say: " << says;
+  } catch (const error& e) {
+    EXPECT_NE(std::string(e.what()).find(says), std::string::npos) << e.what();
+    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
+  }
+}
+
+TEST(plan, refuses_what_makes_no_sense_in_one_line) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  EXPECT_NO_THROW(check_request(request()));
+  expect_refused([](auto& r) { r.backends = {"nope"}; }, "valid: naive");
+  expect_refused([](auto& r) { r.case_name = "nope"; }, "valid: dam_break");
+  expect_refused([](auto& r) { r.states = {"nope"}; }, "valid: rest");
+  expect_refused([](auto& r) { r.interaction = "nope"; }, "valid: ferrari09");
+  expect_refused([](auto& r) { r.smoothing = "nope"; }, "valid: wendland_c2");
+  expect_refused([](auto& r) { r.precision = "nope"; }, "valid: double");
+  expect_refused([](auto& r) { r.integrator = "nope"; }, "valid: euler");
+  expect_refused([](auto& r) { r.grid = "nope"; }, "valid: hashed_grid");
+  expect_refused([](auto& r) { r.order = "nope"; }, "valid: lattice");
+  expect_refused([](auto& r) { r.outside = "nope"; }, "valid: error");
+  expect_refused([](auto& r) { r.M = {0}; }, "between 2 and 10");
+  expect_refused([](auto& r) { r.M = {1}; }, "one cell");
+  expect_refused([](auto& r) { r.M = {40}; }, "between 2 and 10");
+  expect_refused([](auto& r) { r.threads = {0}; }, "threads must be at least 1");
+  expect_refused([](auto& r) { r.threads = {100000}; }, "at most 4096");
+  for (const double bad : {-1.0, 0.0, nan, inf}) expect_refused([&](auto& r) { r.dx = {bad}; }, "dx must be");
+  for (const double bad : {-1.0, nan, inf}) expect_refused([&](auto& r) { r.H = bad; }, "H must be");
+  expect_refused([](auto& r) { r.dt = 0; }, "dt must be");
+  expect_refused([](auto& r) { r.steps = 0; }, "steps must be");
+  expect_refused([](auto& r) { r.repetitions = 0; }, "repetitions must be");
+  expect_refused([&](auto& r) { r.budget_s = -1; }, "budget must be");
+  expect_refused([](auto& r) { r.study = "../x"; }, "study");
+}
+
+}  // namespace
+}  // namespace pairsum::harness

@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "broken_registry.hpp"
+#include "harness/rows/reader.hpp"
+#include "harness/run/runner.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+class run_test : public ::testing::Test {
+ protected:
+  run_test() {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              (std::string("pairsum_run_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::remove_all(folder_);
+  }
+  ~run_test() override { std::filesystem::remove_all(folder_); }
+
+  static run_request small() {
+    run_request r;
+    r.dx = {0.08};
+    r.states = {"perturbed"};
+    r.backends = {"naive", "symmetric_omp", "symmetric_tbb"};
+    r.M = {3, 6};
+    r.threads = {1, 2};
+    r.steps = 3;
+    r.repetitions = 2;
+    return r;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(run_test, writes_every_step_of_every_point_once_and_all_verified) {
+  const auto path = folder_ / "rows.jsonl";
+  ASSERT_EQ(run(small(), path), 0);
+  const rows_file rows = read_rows(path);
+  const std::size_t points = 2 * (1 + 2 + 2);
+  EXPECT_EQ(rows.samples.size(), points * 2 * 3);
+  EXPECT_EQ(rows.environments.size(), 1u);
+  std::set<std::string> seen;
+  std::map<std::pair<int, int>, std::set<int>> slots;
+  for (const sample& s : rows.samples) {
+    EXPECT_TRUE(seen.insert(s.point.backend + std::to_string(s.point.M) + std::to_string(s.point.threads) + "r" +
+                            std::to_string(s.repetition) + "s" + std::to_string(s.step))
+                    .second);
+    slots[{s.round, s.repetition}].insert(s.slot);
+    ASSERT_TRUE(s.phases);
+    EXPECT_TRUE(s.verify.fingerprint);
+    EXPECT_FALSE(s.error);
+    EXPECT_EQ(s.work.has_value(), s.step == 1);
+    double parts = 0;
+    for (const auto& m : phase_members)
+      if (std::string(m.name) != "total_s") parts += ((*s.phases).*m.value).value();
+    EXPECT_NEAR(parts, *s.phases->total_s, 1e-9);
+  }
+  for (const auto& [repetition, used] : slots) EXPECT_EQ(used.size(), points) << "each slot used once";
+}
+
+TEST_F(run_test, equal_bits_over_threads_and_runtimes_are_in_the_rows) {
+  const auto path = folder_ / "rows.jsonl";
+  ASSERT_EQ(run(small(), path), 0);
+  std::map<std::pair<int, int>, std::set<std::string>> bits;
+  for (const sample& s : read_rows(path).samples)
+    if (s.point.backend.starts_with("symmetric")) bits[{s.point.M, s.step}].insert(*s.verify.fingerprint);
+  for (const auto& [at, different] : bits) EXPECT_EQ(different.size(), 1u) << "M=" << at.first << " step " << at.second;
+}
+
+TEST_F(run_test, a_second_run_into_the_same_file_is_the_next_round) {
+  const auto path = folder_ / "rows.jsonl";
+  run_request r = small();
+  r.backends = {"naive"};
+  ASSERT_EQ(run(r, path), 0);
+  ASSERT_EQ(run(r, path), 0);
+  std::set<int> rounds;
+  for (const sample& s : read_rows(path).samples) rounds.insert(s.round);
+  EXPECT_EQ(rounds, (std::set<int>{1, 2}));
+}
+
+TEST_F(run_test, a_wrong_backend_gets_an_error_row_and_never_a_time) {
+  const registry broken = broken_registry();
+  const auto path = folder_ / "rows.jsonl";
+  run_request r = small();
+  r.backends = {"broken_none", "broken_drop_pair"};
+  r.threads = {1};
+  EXPECT_EQ(run(r, path, broken), 1);
+  std::size_t good = 0, failed = 0;
+  for (const sample& s : read_rows(path).samples) {
+    if (s.point.backend == "broken_drop_pair") {
+      EXPECT_TRUE(s.error);
+      EXPECT_FALSE(s.phases);
+      ++failed;
+    } else {
+      EXPECT_TRUE(s.phases);
+      ++good;
+    }
+  }
+  EXPECT_EQ(failed, 2u);  // one per M
+  EXPECT_EQ(good, 2u * 2 * 3);
+}
+
+TEST_F(run_test, orders_of_memory_give_the_same_pairs) {
+  std::set<std::uint64_t> pairs;
+  for (const char* order : {"lattice", "shuffled", "morton"}) {
+    const auto path = folder_ / (std::string(order) + ".jsonl");
+    run_request r = small();
+    r.backends = {"symmetric"};
+    r.order = order;
+    ASSERT_EQ(run(r, path), 0) << order;
+    for (const sample& s : read_rows(path).samples)
+      if (s.work) pairs.insert(s.work->pairs_interacting);
+  }
+  EXPECT_EQ(pairs.size(), 1u);
+}
+
+TEST_F(run_test, a_budget_ends_after_one_repetition_at_least) {
+  const auto path = folder_ / "rows.jsonl";
+  run_request r = small();
+  r.repetitions = 1000000;
+  r.budget_s = 0.001;
+  ASSERT_EQ(run(r, path), 0);
+  for (const sample& s : read_rows(path).samples) EXPECT_EQ(s.repetition, 1);
+}
+
+}  // namespace
+}  // namespace pairsum::harness

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include "broken_registry.hpp"
+#include "harness/verify/verify_all.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+verify_plan plan_for(std::vector<std::string> backends) {
+  verify_plan p;
+  p.interactions = {"ferrari09", "count"};
+  p.backends = std::move(backends);
+  p.M = {2, 6};
+  p.threads = {1, 2};
+  return p;
+}
+
+std::vector<verify_line> verify(const registry& r, const verify_plan& plan, const initial_condition& c, bool& ok) {
+  std::vector<verify_line> lines;
+  ok = verify_all(r, c, plan, [&](const verify_line& l) { lines.push_back(l); });
+  return lines;
+}
+
+initial_condition perturbed() { return make_case("dam_break", {.dx = 0.08, .H = 0, .state = "perturbed", .seed = 1}); }
+
+TEST(verify, passes_every_real_backend) {
+  std::vector<std::string> names;
+  for (const auto& b : registry::instance().backends()) names.emplace_back(b.traits.name);
+  bool ok = false;
+  const auto lines = verify(registry::instance(), plan_for(names), perturbed(), ok);
+  EXPECT_TRUE(ok);
+  EXPECT_EQ(lines.size(), 2u * 2 * (5 * 1 + 4 * 2));  // interactions x M x (serial + parallel x threads)
+  for (const auto& l : lines) {
+    EXPECT_TRUE(l.ok) << l.backend << ": " << l.error;
+    if (l.interaction == "ferrari09" && l.backend == "naive") EXPECT_LT(l.share, 1);
+  }
+}
+
+TEST(verify, catches_a_dropped_a_doubled_and_a_sign_swapped_pair) {
+  const registry broken = broken_registry();
+  for (const fault f : {fault::drop_pair, fault::double_pair, fault::flip_sign}) {
+    bool ok = true;
+    const auto lines = verify(broken, plan_for({std::string(name_of(f))}), perturbed(), ok);
+    EXPECT_FALSE(ok) << name_of(f);
+    for (const auto& l : lines) {
+      EXPECT_FALSE(l.ok) << l.backend << " with " << l.interaction << " M=" << l.M;
+      EXPECT_NE(l.error.find("of particle"), std::string::npos) << l.error;
+    }
+  }
+}
+
+TEST(verify, passes_the_same_test_backend_without_a_fault) {
+  bool ok = false;
+  verify(broken_registry(), plan_for({"broken_none"}), perturbed(), ok);
+  EXPECT_TRUE(ok);
+}
+
+TEST(verify, an_unknown_backend_is_an_error_before_anything_is_summed) {
+  bool ok = false;
+  EXPECT_THROW(verify(registry::instance(), plan_for({"naive", "nope"}), perturbed(), ok), error);
+}
+
+TEST(verifier, known_bits_need_no_second_look_but_other_bits_do) {
+  const initial_condition c = perturbed();
+  setup s;
+  s.omega_low = c.omega_low;
+  s.omega_high = c.omega_high;
+  s.constants = {c.H, c.eos};
+  const registry broken = broken_registry();
+  verifier v(broken, s, c.particles, team());
+  const auto outcome = [&](const char* backend) {
+    s.backend = backend;
+    const auto sum = broken.make_summation(s);
+    sum->load(c.particles, {});
+    sum->evaluate(team());
+    return v.check(*sum, 1, team());
+  };
+  EXPECT_TRUE(outcome("broken_none").bound.has_value());
+  EXPECT_FALSE(outcome("broken_none").bound.has_value()) << "second time: recognised by its bits";
+  EXPECT_FALSE(outcome("broken_double_pair").ok);
+  EXPECT_FALSE(outcome("broken_double_pair").ok) << "wrong bits are never remembered as right";
+}
+
+TEST(verifier, a_later_step_is_checked_against_its_own_state) {
+  const initial_condition c = perturbed();
+  setup s;
+  s.omega_low = c.omega_low;
+  s.omega_high = c.omega_high;
+  s.constants = {c.H, c.eos};
+  verifier v(registry::instance(), s, c.particles, team());
+  const auto sum = registry::instance().make_summation(s);
+  initial_condition moved = c;
+  for (double& x : moved.particles.x[0]) x += 1e-3;
+  sum->load(moved.particles, {});
+  sum->evaluate(team());
+  EXPECT_FALSE(v.check(*sum, 1, team()).ok) << "not the initial state";
+  EXPECT_TRUE(v.check(*sum, 2, team()).ok) << "right for the state it has";
+}
+
+}  // namespace
+}  // namespace pairsum::harness

@@ -1,0 +1,31 @@
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "harness/plan/words.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+TEST(words, lists_ranges_and_all) {
+  EXPECT_EQ(parse_counts("--M", "6,7", 0), (std::vector<int>{6, 7}));
+  EXPECT_EQ(parse_counts("--M", "5..8,7,2", 0), (std::vector<int>{5, 6, 7, 8, 2}));
+  EXPECT_EQ(parse_counts("--threads", "all", 6), (std::vector<int>{1, 2, 4, 6}));
+  EXPECT_EQ(parse_counts("--threads", "all", 1), (std::vector<int>{1}));
+  EXPECT_EQ(parse_numbers("--dx", "0.02,3e-2"), (std::vector<double>{0.02, 0.03}));
+}
+
+TEST(words, what_is_no_number_is_named_with_its_option) {
+  for (const char* bad : {"x", "6;7", "6,", "", "7..5", "1.5", "99999999999999", "5.."}) {
+    try {
+      parse_counts("--M", bad, 0);
+      ADD_FAILURE() << bad << " was accepted";
+    } catch (const error& e) {
+      EXPECT_NE(std::string(e.what()).find("--M"), std::string::npos) << e.what();
+    }
+  }
+  EXPECT_THROW(parse_numbers("--dx", "0.02x"), error);
+  EXPECT_THROW(parse_counts("--M", "all", 0), error);
+}
+
+}  // namespace
+}  // namespace pairsum::harness

@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/random.hpp"
+#include "eos/tait.hpp"
+#include "interactions/ferrari09.hpp"
+#include "smoothing/wendland_c2.hpp"
+
+// The formulas against what they are defined by, written down here a second time.
+namespace pairsum {
+namespace {
+
+template <int D, class R>
+long double integral(double H) {
+  const wendland_c2<D, R> W(H);
+  const long double pi = std::numbers::pi_v<long double>;
+  const auto shell = [&](long double r) {
+    return D == 1 ? 2 : D == 2 ? 2 * pi * r : 4 * pi * r * r;
+  };
+  const int n = 2000;  // Simpson
+  long double sum = 0;
+  for (int k = 0; k <= n; ++k) {
+    const long double r = static_cast<long double>(H) * k / n;
+    sum += (k == 0 || k == n ? 1 : k % 2 ? 4 : 2) * shell(r) * W.value(static_cast<R>(r));
+  }
+  return sum * static_cast<long double>(H) / (3 * n);
+}
+
+TEST(wendland_c2, integral_is_1) {
+  for (const double H : {0.01188, 1.0, 50.0}) {
+    EXPECT_NEAR((integral<1, double>(H)), 1, 1e-10);
+    EXPECT_NEAR((integral<2, double>(H)), 1, 1e-10);
+    EXPECT_NEAR((integral<3, double>(H)), 1, 1e-10);
+    EXPECT_NEAR((integral<3, float>(H)), 1, 1e-5);
+  }
+}
+
+template <int D>
+void slope_is_the_derivative(double H) {
+  const wendland_c2<D, double> W(H);
+  const double h = 1e-5 * H, scale = W.value(0.0) / (H * H);
+  for (double q = 0.01; q < 0.99; q += 0.01) {
+    const double r = q * H;
+    EXPECT_NEAR(W.slope_over_r(r) / scale, (W.value(r + h) - W.value(r - h)) / (2 * h) / r / scale,
+                1e-7);
+    EXPECT_LT(W.slope_over_r(r), 0);
+    EXPECT_LT(W.value(r + h), W.value(r));
+  }
+  EXPECT_NEAR(W.slope_over_r(0.0), W.slope_over_r(1e-9 * H), 1e-7 * scale);
+  EXPECT_TRUE(std::isfinite(W.slope_over_r(0.0)));
+  EXPECT_LE(std::abs(W.value(H)), 1e-30 * W.value(0.0));
+  EXPECT_LE(std::abs(W.slope_over_r(H)), 1e-30 * scale);
+  EXPECT_EQ((wendland_c2<D, double>(0.5).value(0.5)), 0);
+  EXPECT_EQ((wendland_c2<D, double>(0.5).slope_over_r(0.5)), 0);
+}
+TEST(wendland_c2, slope_is_the_derivative_and_vanishes_at_H) {
+  for (const double H : {0.01188, 1.0}) {
+    slope_is_the_derivative<1>(H);
+    slope_is_the_derivative<2>(H);
+    slope_is_the_derivative<3>(H);
+  }
+}
+
+TEST(tait, is_its_formula) {
+  const tait eos;
+  EXPECT_EQ(eos.pressure(1000.0), 0);
+  EXPECT_DOUBLE_EQ(eos.sound_speed0(), std::sqrt(70.0));
+  for (const double rho : {900.0, 990.0, 1000.0, 1010.0, 1200.0}) {
+    const double s = rho / 1000;
+    EXPECT_NEAR(eos.pressure(rho), 1e4 * (std::pow(s, 7) - 1), 1e-10);
+    EXPECT_DOUBLE_EQ(eos.sound_speed(rho), std::sqrt(7 * 1e4 / 1000 * std::pow(s, 6)));
+    const double slope = (eos.pressure(rho + 0.01) - eos.pressure(rho - 0.01)) / 0.02;
+    EXPECT_NEAR(std::pow(eos.sound_speed(rho), 2), slope, 1e-6 * slope) << "c^2 = dp/drho";
+  }
+  const tait other{.rho0 = 800, .B = 3e5};
+  EXPECT_NEAR(other.pressure(840.0), 3e5 * (std::pow(1.05, 7) - 1), 1e-8);
+}
+TEST(tait, density_at_a_depth_gives_the_hydrostatic_pressure) {
+  const tait eos;
+  EXPECT_EQ(eos.density_at(0, 9.81), 1000);
+  for (const double depth : {0.01, 0.3, 2.0}) {
+    EXPECT_NEAR(eos.pressure(eos.density_at(depth, 9.81)), 1000 * 9.81 * depth, 1e-8);
+    EXPECT_DOUBLE_EQ(eos.density_at(depth, 9.81),
+                     1000 * std::pow(1000 * 9.81 * depth / 1e4 + 1, 1.0 / 7));
+  }
+}
+
+/// One fluid particle, and its rates by the formula of Ferrari et al. as it stands in the
+/// documentation.
+struct particle {
+  std::array<double, 3> x, v;
+  double rho, m;
+};
+struct rates {
+  double drho;
+  std::array<double, 3> dv;
+};
+rates by_hand(const particle& i, const particle& j, double H) {
+  const auto p = [](double rho) { return 1e4 * (std::pow(rho / 1000, 7) - 1); };
+  const auto c = [](double rho) { return std::sqrt(70 * std::pow(rho / 1000, 6)); };
+  double r = 0, v_dot_r = 0;
+  for (int d = 0; d < 3; ++d) r += std::pow(i.x[d] - j.x[d], 2);
+  r = std::sqrt(r);
+  const double q = r / H,
+               slope = -20 * 21 / (2 * std::numbers::pi * std::pow(H, 4)) * q * std::pow(1 - q, 3);
+  std::array<double, 3> grad;
+  for (int d = 0; d < 3; ++d) grad[d] = slope * (i.x[d] - j.x[d]) / r;
+  for (int d = 0; d < 3; ++d) v_dot_r += (i.v[d] - j.v[d]) * grad[d];
+  rates u;
+  u.drho = j.m * (v_dot_r - std::max(c(i.rho), c(j.rho)) * slope * (j.rho - i.rho) / j.rho);
+  for (int d = 0; d < 3; ++d)
+    u.dv[d] = -j.m * (p(i.rho) / (i.rho * i.rho) + p(j.rho) / (j.rho * j.rho)) * grad[d];
+  return u;
+}
+
+class ferrari09_test : public testing::Test {
+ protected:
+  using formula = ferrari09<3, double, wendland_c2>;
+  static constexpr double H = 0.1;
+  const formula f{physics{H, {}}};
+
+  static particle random_particle(std::uint64_t n, double reach) {
+    const counter_random random(9);
+    const auto u = [&](std::uint64_t k, double a, double b) {
+      return random.uniform(10 * n + k, a, b);
+    };
+    return {{u(0, 0, reach), u(1, 0, reach), u(2, 0, reach)},
+            {u(3, -1, 1), u(4, -1, 1), u(5, -1, 1)},
+            u(6, 950, 1050),
+            u(7, 1e-4, 3e-4)};
+  }
+  static particle_state<3, double> state(const particle& a) {
+    return {{a.x[0], a.x[1], a.x[2]}, {a.v[0], a.v[1], a.v[2]}, a.rho, a.m, 0};
+  }
+  static void expect_near(const formula::rates<double>& u, const rates& e) {
+    const double size =
+        std::abs(e.drho) + std::abs(e.dv[0]) + std::abs(e.dv[1]) + std::abs(e.dv[2]);
+    EXPECT_GT(size, 0);
+    EXPECT_NEAR(u.drho, e.drho, 1e-11 * size);
+    for (int d = 0; d < 3; ++d) EXPECT_NEAR(u.dv[d], e.dv[d], 1e-11 * size);
+  }
+};
+
+TEST_F(ferrari09_test, pair_is_the_documented_formula_for_both_sides) {
+  for (std::uint64_t n = 0; n < 200; ++n) {
+    const particle a = random_particle(2 * n, 0.05), b = random_particle(2 * n + 1, 0.05);
+    const vec<3, double> r = state(a).x - state(b).x;
+    const auto u = f.pair(r, r.squaredNorm(), f.derive(state(a)), f.derive(state(b)));
+    expect_near(u.to_i, by_hand(a, b, H));
+    expect_near(u.to_j, by_hand(b, a, H));
+  }
+}
+
+TEST_F(ferrari09_test, boundary_is_the_pair_with_the_mirrored_ghost) {
+  for (std::uint64_t n = 0; n < 200; ++n) {
+    const particle a = random_particle(2 * n, 0.02), b = random_particle(2 * n + 1, 0.02);
+    particle ghost = a;
+    for (int d = 0; d < 3; ++d) ghost.x[d] = 2 * b.x[d] - a.x[d], ghost.v[d] = 2 * b.v[d] - a.v[d];
+    const vec<3, double> r = state(a).x - state(b).x;
+    expect_near(f.boundary(r, r.squaredNorm(), f.derive(state(a)), f.derive_boundary(state(b))),
+                by_hand(a, ghost, H));
+  }
+}
+
+TEST_F(ferrari09_test, coincident_particles_exert_no_force) {
+  const particle a = random_particle(1, 0.05);
+  particle b = random_particle(2, 0.05);
+  b.x = a.x;
+  const auto u = f.pair(vec<3, double>(0, 0, 0), 0.0, f.derive(state(a)), f.derive(state(b)));
+  EXPECT_EQ(u.to_i.drho, 0);
+  EXPECT_EQ(u.to_i.dv.norm() + u.to_j.dv.norm(), 0);
+}
+
+}  // namespace
+}  // namespace pairsum

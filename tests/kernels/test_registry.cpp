@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "scene.hpp"
+
+namespace pairsum {
+namespace {
+
+using namespace test_kit;
+
+std::string refusal(const setup& s) {
+  return error_of([&] { (void)registry::instance().make_summation(s); });
+}
+
+TEST(registry, lists_the_algorithms_of_the_talk_each_once) {
+  const auto names = backend_names();
+  const std::set<std::string> all(names.begin(), names.end());
+  EXPECT_EQ(all.size(), names.size());
+  for (const char* name : {"naive", "naive_omp", "naive_tbb", "pair_list", "sphysics_sweep",
+                           "ppm_stencil", "symmetric", "symmetric_omp", "symmetric_tbb"})
+    EXPECT_TRUE(all.contains(name)) << name;
+}
+
+TEST(registry, makes_every_combination_it_lists) {
+  const registry& r = registry::instance();
+  const setup world = make_scene("dam_break", 0.1, "rest").world;
+  for (const std::string& backend : backend_names())
+    for (const std::string& interaction : r.interactions()) {
+      const auto sum = r.make_summation(with(world, backend, 3, interaction));
+      ASSERT_NE(sum, nullptr);
+      EXPECT_EQ(sum->traits().name, backend);
+      EXPECT_FALSE(sum->traits().description.empty());
+      EXPECT_NE(r.make_reference(with(world, backend, 3, interaction)), nullptr);
+    }
+}
+
+TEST(registry, unknown_words_are_errors_that_list_the_valid_ones) {
+  const setup good = make_scene("dam_break", 0.1, "rest").world;
+  EXPECT_EQ(refusal(good), "");
+  setup s = good;
+  s.backend = "symetric";
+  EXPECT_TRUE(says(refusal(s), {"backend", "\"symetric\"", "naive, naive_omp", "symmetric_tbb"}))
+      << refusal(s);
+  s = good;
+  s.interaction = "ferrari";
+  EXPECT_TRUE(says(refusal(s), {"interaction", "\"ferrari\"", "ferrari09", "count"})) << refusal(s);
+  s = good;
+  s.smoothing = "wendland";
+  EXPECT_TRUE(says(refusal(s), {"smoothing", "\"wendland\"", "wendland_c2"})) << refusal(s);
+  s = good;
+  s.precision = "half";
+  EXPECT_TRUE(says(refusal(s), {"precision", "\"half\"", "double"})) << refusal(s);
+  s = good;
+  s.grid = "tree";
+  EXPECT_TRUE(says(refusal(s), {"grid", "\"tree\"", "hashed_grid"})) << refusal(s);
+  s = good;
+  s.dim = 7;
+  EXPECT_TRUE(says(refusal(s), {"ferrari09/wendland_c2/7D/double", "was not built", "3D/double"}))
+      << refusal(s);
+  EXPECT_NE(error_of([&] { (void)registry::instance().make_reference(s); }), "");
+}
+
+TEST(registry, an_unavailable_backend_is_listed_and_says_what_it_needs) {
+  registry r;
+  r.enrol_backend({.name = "cuda",
+                   .description = "",
+                   .aliases = "",
+                   .threads = runtime::serial,
+                   .symmetric = false,
+                   .deterministic = false,
+                   .accumulates = false},
+                  "needs CUDA");
+  EXPECT_EQ(r.backends().size(), 1u);
+  EXPECT_TRUE(
+      says(error_of([&] { (void)r.find_backend("cuda"); }), {"cuda", "unavailable", "needs CUDA"}));
+}
+
+}  // namespace
+}  // namespace pairsum

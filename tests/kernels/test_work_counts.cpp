@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include "indexed_scene.hpp"
+
+// The work that backends report, recomputed from the cells: who holds fluid, and who is whose
+// neighbour on the torus.
+namespace pairsum {
+namespace {
+
+using namespace test_kit;
+
+struct work {
+  std::uint64_t cells = 0, fluid_cells = 0, cell_pairs = 0, fluid_tests = 0, boundary_tests = 0;
+};
+
+work by_hand(const scene& s, int M) {
+  const indexed_scene indexed(s, M);
+  struct content {
+    std::uint64_t fluid = 0, boundary = 0;
+  };
+  std::map<std::array<int, 3>, content> cell;
+  for (std::size_t i = 0; i < indexed.particles.size(); ++i) {
+    content& c = cell[indexed.cell_of(i)];
+    (indexed.particles.kind[i] == particle_kind::fluid ? c.fluid : c.boundary) += 1;
+  }
+  work n;
+  n.cells = cell.size();
+  const int mask = (1 << M) - 1;
+  for (const auto& [at, own] : cell) {
+    n.fluid_cells += own.fluid > 0;
+    n.fluid_tests += own.fluid * (own.fluid - (own.fluid > 0)) / 2;
+    n.boundary_tests += own.fluid * own.boundary;
+    for (int code = 0; code < 27; ++code) {
+      const std::array<int, 3> to{(at[0] + code % 3 - 1) & mask, (at[1] + code / 3 % 3 - 1) & mask,
+                                  (at[2] + code / 9 - 1) & mask};
+      const auto other = cell.find(to);
+      if (other == cell.end() || other->first <= at) continue;  // each pair of cells once
+      n.cell_pairs += own.fluid > 0 || other->second.fluid > 0;
+      n.fluid_tests += own.fluid * other->second.fluid;
+      n.boundary_tests += own.fluid * other->second.boundary + own.boundary * other->second.fluid;
+    }
+  }
+  return n;
+}
+
+class work_counts_test : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(backend, work_counts_test, testing::ValuesIn(backend_names()),
+                         [](const auto& i) { return i.param; });
+
+TEST_P(work_counts_test, are_those_of_the_cells) {
+  const scene s = make_scene("dam_break", 0.05, "perturbed");
+  const auto oracle =
+      registry::instance().make_reference(s.world)->cell_search(s.particles, some_threads());
+  for (const int M : {2, 3, 4, 6}) {
+    const work expected = by_hand(s, M);
+    const auto sum = evaluated(with(s.world, GetParam(), M), s.particles, 2);
+    const auto fingerprint = sum->fingerprint();
+    const work_counts n = sum->count_work();
+    SCOPED_TRACE("M=" + std::to_string(M));
+    EXPECT_EQ(n.cells, std::uint64_t{1} << 3 * M);
+    EXPECT_EQ(n.cells_nonempty, expected.cells);
+    EXPECT_EQ(n.pairs_fluid_fluid, oracle.pairs_fluid_fluid);
+    EXPECT_EQ(n.pairs_fluid_boundary, oracle.pairs_fluid_boundary);
+    if (sum->traits().symmetric) {
+      EXPECT_EQ(n.sumF1, expected.fluid_cells);
+      EXPECT_EQ(n.sumF2, expected.cell_pairs);
+      EXPECT_EQ(n.pairs_tested, expected.fluid_tests + expected.boundary_tests);
+    } else {
+      EXPECT_EQ(n.sumF1 + n.sumF2, 0u);
+      EXPECT_EQ(n.pairs_tested, 2 * expected.fluid_tests + expected.boundary_tests);
+    }
+    EXPECT_EQ(sum->fingerprint(), fingerprint) << "counting must not disturb the rates";
+  }
+}
+
+}  // namespace
+}  // namespace pairsum

@@ -1,0 +1,89 @@
+"""Greps the includes: each folder may include what docs/design.md allows, and nothing else."""
+
+import os
+import pathlib
+import re
+
+SOURCE = pathlib.Path(os.environ["PAIRSUM_SOURCE"])
+ALLOWED = {  # folder: folders it may include, besides itself
+    "core": [],
+    "pattern": ["core"],
+    "particles": ["core"],
+    "eos": ["core"],
+    "smoothing": ["core"],
+    "interactions": ["core", "smoothing", "eos"],
+    "cases": ["core", "particles", "eos"],
+    "grid": ["core", "pattern", "particles"],
+    "sum": ["core", "pattern", "particles", "eos", "smoothing", "interactions", "grid"],
+    "backends": ["core", "pattern", "particles", "grid", "interactions", "sum"],
+    "integrators": ["core", "particles", "sum"],
+    "harness/rows": ["core"],
+    "harness/stats": ["core"],
+    "harness/measure": ["core"],
+    "harness/environment": ["core", "harness/rows"],
+    "harness/plan": ["core", "cases", "integrators", "sum", "harness/rows", "harness/environment"],
+    "harness/verify": ["core", "particles", "cases", "sum", "harness/measure"],
+    "harness/run": ["core", "cases", "integrators", "sum", "harness/rows", "harness/plan", "harness/measure", "harness/verify",
+                    "harness/stats", "harness/environment"],
+    "harness/report": ["core", "harness/rows", "harness/stats"],
+}
+NO_BACKEND_INCLUDES_ANOTHER = "backends"
+DOOR = {"sum/registry.hpp", "sum/setup.hpp", "sum/summation.hpp", "sum/reference.hpp", "sum/rate_table.hpp", "sum/grids.hpp",
+        "sum/check.hpp", "sum/probe.hpp", "sum/backend.hpp"}
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
+FORBIDDEN_IN_LIBRARY = re.compile(r"#\s*include\s+<(chrono|iostream|fstream|cstdio|filesystem)>|\bgetenv\b|\bprintf\s*\(")
+
+
+def folder_of(include):
+    return "/".join(include.split("/")[:2]) if include.startswith("harness/") else include.split("/")[0]
+
+
+def complaints(path, text):
+    """What is wrong with the includes of file `path` (relative to the root) with this text."""
+    folder = "/".join(path.split("/")[:2]) if path.startswith("harness/") else path.split("/")[1]
+    found = []
+    if folder not in ALLOWED:
+        return found
+    for include in INCLUDE.findall(text):
+        if "/" not in include:
+            continue  # beside it, or generated
+        target = folder_of(include)
+        if target != folder and target not in ALLOWED[folder]:
+            found.append(f"{path} includes {include}")
+        if folder == target == NO_BACKEND_INCLUDES_ANOTHER:
+            found.append(f"{path} includes another backend: {include}")
+        if folder.startswith("harness/") and include.startswith("sum/") and include not in DOOR:
+            found.append(f"{path} goes around the registry: {include}")
+    if path.startswith("kernels/") and FORBIDDEN_IN_LIBRARY.search(text):
+        found.append(f"{path} uses a clock, a file or stdout")
+    return found
+
+
+def sources():
+    for top in ["kernels", "harness"]:
+        for path in sorted((SOURCE / top).rglob("*.?pp")):
+            yield path
+
+
+def test_every_include_is_allowed():
+    found = [c for path in sources() for c in complaints(str(path.relative_to(SOURCE)), path.read_text())]
+    assert found == []
+
+
+def test_every_folder_of_the_library_is_known():
+    folders = {p.relative_to(SOURCE / "kernels").parts[0] for p in (SOURCE / "kernels").rglob("*.?pp")}
+    assert folders <= set(ALLOWED)
+
+
+def test_the_checker_rejects():
+    assert complaints("kernels/core/a.hpp", '#include "grid/cells.hpp"\n')
+    assert complaints("kernels/backends/a.hpp", '#include "backends/naive.hpp"\n')
+    assert complaints("kernels/sum/a.hpp", '#include <chrono>\n')
+    assert complaints("harness/run/a.cpp", '#include "sum/block.hpp"\n')
+    assert complaints("harness/report/a.cpp", '#include "harness/run/world.hpp"\n')
+    assert not complaints("kernels/backends/a.hpp", '#include "sum/block.hpp"\n#include <vector>\n')
+
+
+def test_every_header_says_pragma_once():
+    missing = [str(p) for p in sources() if p.suffix == ".hpp" and "#pragma once" not in p.read_text()]
+    assert missing == []
