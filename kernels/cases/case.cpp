@@ -13,7 +13,7 @@ namespace {
 
 void check_length(const char* what, double a) {
   if (!(a > 0) || !std::isfinite(a))
-    throw error(std::string(what) + " must be a positive length in m, is " + std::to_string(a));
+    throw error(std::string(what) + " must be a positive length in m, is " + number_text(a));
 }
 
 /// Interleaves the low 21 bits of the components.

@@ -3,6 +3,7 @@
 
 #include "cases/case.hpp"
 #include "core/error.hpp"
+#include "core/names.hpp"
 
 namespace pairsum {
 
@@ -19,11 +20,11 @@ struct dam_break {
   static initial_condition make(const case_parameters& c) {
     if (c.dim != 2 && c.dim != 3) throw error("dam_break exists in 2D and 3D, not in " + std::to_string(c.dim) + "D");
     const double dx = c.dx, edge = water - 2 * dx;
-    if (!(edge >= dx)) throw error("dam_break needs dx <= 0.2 m (three particles an axis), is " + std::to_string(dx));
     const double per_axis = std::round(edge / dx) + 1;
+    if (!(per_axis >= 3)) throw error("dam_break needs dx <= 0.17 m (three particles an axis), is " + number_text(dx));
     const double plate = dx / 1.5;
     if (std::pow(per_axis, c.dim) + 40 / (plate * plate) > 4e9)
-      throw error("dam_break with dx = " + std::to_string(dx) + " has more than 2^32 particles");
+      throw error("dam_break with dx = " + number_text(dx) + " has more than 2^32 particles");
     initial_condition made;
     made.particles = particle_table(c.dim);
     made.omega_low.assign(c.dim, 0.0);

@@ -3,6 +3,7 @@
 
 #include "cases/case.hpp"
 #include "core/error.hpp"
+#include "core/names.hpp"
 
 namespace pairsum {
 
@@ -14,10 +15,10 @@ struct lattice {
 
   static initial_condition make(const case_parameters& c) {
     if (c.dim < 1 || c.dim > 3) throw error("lattice exists in 1D, 2D and 3D, not in " + std::to_string(c.dim) + "D");
-    if (!(c.dx <= 1)) throw error("lattice needs dx <= 1 m, is " + std::to_string(c.dx));
+    if (!(c.dx <= 1)) throw error("lattice needs dx <= 1 m, is " + number_text(c.dx));
     const double per_axis = std::round(1 / c.dx);
     if (std::pow(per_axis, c.dim) > 4e9)
-      throw error("lattice with dx = " + std::to_string(c.dx) + " has more than 2^32 particles");
+      throw error("lattice with dx = " + number_text(c.dx) + " has more than 2^32 particles");
     const auto n = static_cast<std::size_t>(per_axis);
     initial_condition made;
     made.omega_low.assign(c.dim, 0.0);

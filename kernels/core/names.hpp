@@ -1,10 +1,17 @@
 #pragma once
+#include <charconv>
 #include <string>
 #include <string_view>
 
 #include "core/error.hpp"
 
 namespace pairsum {
+
+/// The shortest text that reads back as the same number.
+inline std::string number_text(double a) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, a).ptr};
+}
 
 /// "a, b, c"
 template <class Names>

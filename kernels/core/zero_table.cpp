@@ -17,7 +17,7 @@ zero_table::zero_table(std::size_t n, const char* what) : n_(n) {
     throw error(std::string(what) + " needs " + std::to_string(bytes >> 20) + " MiB of memory, but " +
                 have + "; a smaller M needs less");
   };
-  if (bytes > memory) refuse("this machine has " + std::to_string(memory >> 20) + " MiB");
+  if (n > memory / sizeof(std::uint32_t)) refuse("this machine has " + std::to_string(memory >> 20) + " MiB");
   void* const p = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (p == MAP_FAILED) refuse("the system does not grant it");

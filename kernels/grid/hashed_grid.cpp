@@ -19,8 +19,9 @@ R safe_width(const box<D, R>& omega, R H) {
   return H * (1 + 8 * u + 12 * u * t_max);
 }
 
-void check_M(int D, int M) {
-  if (M >= 2 && D * M <= 30) return;
+/// M, if it is one this dimension can have.
+int check_M(int D, int M) {
+  if (M >= 2 && M <= 30 / D) return M;
   const std::string range = "M must be between 2 and " + std::to_string(30 / D) + " in " +
                             std::to_string(D) + "D, is " + std::to_string(M);
   throw error(M == 1 ? range + " (with M = 1 the neighbours -1 and +1 are one cell)" : range);
@@ -30,10 +31,11 @@ void check_M(int D, int M) {
 
 template <int D, class R>
 hashed_grid<D, R>::hashed_grid(const box<D, R>& omega, R H, int M)
-    : low_(omega.low), w_(safe_width(omega, H)), inv_w_(1 / w_), M_(M) {
-  check_M(D, M);
-  table_ = zero_table(std::size_t{1} << (D * M), "the hashed grid");
-}
+    : low_(omega.low),
+      w_(safe_width(omega, H)),
+      inv_w_(1 / w_),
+      M_(check_M(D, M)),
+      table_(std::size_t{1} << (D * M_), "the hashed grid") {}
 
 template <int D, class R>
 void hashed_grid<D, R>::keys(const particle_set<D, R>& p, std::size_t begin, std::size_t end,

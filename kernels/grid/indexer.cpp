@@ -26,7 +26,7 @@ void indexer<D, R>::make_keys(particle_set<D, R>& p, const team& t) {
     for (std::size_t i = begin; i < end; ++i) {
       bool inside = true;
       for (int d = 0; d < D; ++d)
-        inside = inside & (p.x[d][i] >= omega_.low[d]) & (p.x[d][i] <= omega_.high[d]);
+        inside = inside && p.x[d][i] >= omega_.low[d] && p.x[d][i] <= omega_.high[d];
       if (!inside && p.kind[i] != particle_kind::lost) {
         p.kind[i] = particle_kind::lost;
         ++count.lost;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 
 namespace pairsum {
 namespace {
@@ -15,16 +16,16 @@ bool inside(const particle_table& p, std::size_t i, const std::vector<double>& l
   return in;
 }
 
-std::string text(double a) {
-  std::string s = std::to_string(a);
-  return s;
-}
+std::string text(double a) { return number_text(a); }
 
 }  // namespace
 
 void check_world(const setup& s) {
   if (!(s.constants.H > 0) || !std::isfinite(s.constants.H))
     throw error("the support radius H must be a positive length, is " + text(s.constants.H));
+  if (s.omega_low.size() != static_cast<std::size_t>(s.dim) || s.omega_high.size() != s.omega_low.size())
+    throw error("Omega must have corners of " + std::to_string(s.dim) + " components, has " +
+                std::to_string(s.omega_low.size()) + " and " + std::to_string(s.omega_high.size()));
   for (std::size_t d = 0; d < s.omega_low.size(); ++d)
     if (!std::isfinite(s.omega_low[d]) || !std::isfinite(s.omega_high[d]) ||
         !(s.omega_low[d] <= s.omega_high[d]))
@@ -62,6 +63,18 @@ void check_input(const particle_table& p, const setup& s) {
   if (outside > 0)
     throw error(std::to_string(outside) + " of " + std::to_string(p.size()) +
                 " particles lie outside Omega; move them, enlarge Omega, or drop them (--outside drop)");
+}
+
+void check_order(const std::vector<std::uint32_t>& order, std::size_t rows) {
+  if (order.empty()) return;
+  std::vector<bool> seen(rows, false);
+  bool once = order.size() == rows;
+  for (std::size_t k = 0; once && k < rows; ++k) {
+    once = order[k] < rows && !seen[order[k]];
+    if (once) seen[order[k]] = true;
+  }
+  if (!once)
+    throw error("an order of memory must name each of the " + std::to_string(rows) + " particles once");
 }
 
 std::size_t drop_outside(particle_table& p, const std::vector<double>& low,

@@ -12,6 +12,9 @@ void check_input(const particle_table& p, const setup& s);
 /// Throws pairsum::error for an H or an Omega that no particles could make good.
 void check_world(const setup& s);
 
+/// Throws pairsum::error unless `order` is empty or names each of `rows` ids once.
+void check_order(const std::vector<std::uint32_t>& order, std::size_t rows);
+
 /// Removes particles outside the closed Omega; returns how many. Ids are row numbers, so they change.
 std::size_t drop_outside(particle_table& p, const std::vector<double>& low,
                          const std::vector<double>& high);

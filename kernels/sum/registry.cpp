@@ -4,6 +4,7 @@
 
 #include "sum/enrolment.hpp"
 #include "core/names.hpp"
+#include "sum/check.hpp"
 
 namespace pairsum {
 namespace {
@@ -97,6 +98,7 @@ std::unique_ptr<summation> registry::make_summation(const setup& s) const {
 }
 
 std::unique_ptr<reference> registry::make_reference(const setup& s) const {
+  check_world(s);
   return find(references_, s).make(s);
 }
 

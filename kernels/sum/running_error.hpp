@@ -26,6 +26,8 @@ struct running_error {
     return 0.5 * static_cast<double>(std::numeric_limits<R>::epsilon()) *
            std::abs(static_cast<double>(value));
   }
+  /// What a product or quotient can lose below the smallest normal number.
+  static constexpr double underflow = static_cast<double>(std::numeric_limits<R>::denorm_min());
   double size() const { return std::abs(static_cast<double>(v)); }
 
   friend running_error operator+(const running_error& a, const running_error& b) {
@@ -38,12 +40,13 @@ struct running_error {
   }
   friend running_error operator*(const running_error& a, const running_error& b) {
     const R v = a.v * b.v;
-    return {v, a.size() * b.e + b.size() * a.e + a.e * b.e + rounded(v)};
+    return {v, a.size() * b.e + b.size() * a.e + a.e * b.e + rounded(v) + underflow};
   }
   friend running_error operator/(const running_error& a, const running_error& b) {
     const R v = a.v / b.v;
+    if (b.size() <= b.e) return {v, std::numeric_limits<double>::infinity()};
     const double size = std::abs(static_cast<double>(v));
-    return {v, (a.e + size * b.e) / (b.size() - b.e) + rounded(v)};
+    return {v, (a.e + size * b.e) / (b.size() - b.e) + rounded(v) + underflow};
   }
   running_error operator-() const { return {-v, e}; }
   running_error& operator+=(const running_error& b) { return *this = *this + b; }

@@ -112,9 +112,11 @@ class summation_of final : public state<I::dim, typename I::real> {
 
   void load(const particle_table& p, const std::vector<std::uint32_t>& order) override {
     check_input(p, setup_);
+    check_order(order, p.size());
     fill(particles_, p, order);
     rows_ = p.size();
     lost_ = 0;
+    view_ = {};
   }
 
   void index(const team& t) override {
@@ -147,7 +149,7 @@ class summation_of final : public state<I::dim, typename I::real> {
     table.names = rate_names<rates_of<I>>();
     table.columns.assign(field_count<rates_of<I>>, std::vector<double>(rows_, 0.0));
     const auto u = view_.u;
-    for (std::size_t i = 0; i < index_.fluid(); ++i)
+    for (std::size_t i = 0; i < view_.fluid_count; ++i)
       each_scalar(u.load(i), [&](const auto& a, int slot) {
         table.columns[slot][particles_.id[i]] = static_cast<double>(a);
       });
@@ -157,7 +159,7 @@ class summation_of final : public state<I::dim, typename I::real> {
   std::uint64_t fingerprint() const override {
     constexpr std::uint32_t none = ~std::uint32_t{0};
     std::vector<std::uint32_t> place(rows_, none);
-    for (std::uint32_t i = 0; i < index_.fluid(); ++i) place[particles_.id[i]] = i;
+    for (std::uint32_t i = 0; i < view_.fluid_count; ++i) place[particles_.id[i]] = i;
     std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a over 64-bit words, with a fold against its weak low bits
     for (const std::uint32_t i : place) {
       if (i == none) continue;

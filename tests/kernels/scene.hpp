@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,13 +29,14 @@ setup with(setup s, std::string_view backend, int M, std::string_view interactio
 /// team, for its index.
 class workers {
  public:
-  workers(runtime kind, int threads) : kind_(kind), threads_(threads), arena_(threads) {}
-  team get() { return kind_ == runtime::tbb ? team::tbb(threads_, arena_) : team::omp(threads_); }
+  workers(runtime kind, int threads) : threads_(threads) {
+    if (kind == runtime::tbb) arena_.emplace(threads);
+  }
+  team get() { return arena_ ? team::tbb(threads_, *arena_) : team::omp(threads_); }
 
  private:
-  runtime kind_;
   int threads_;
-  tbb_arena arena_;
+  std::optional<tbb_arena> arena_;
 };
 
 /// The names of all backends, unavailable ones left out.

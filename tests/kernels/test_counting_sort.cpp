@@ -38,22 +38,17 @@ class counting_sort_test : public testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(size, counting_sort_test, testing::Values(0, 1, 2, 1000, 100000));
 
 TEST_P(counting_sort_test, equals_stable_sort_for_every_team) {
-  tbb_arena one(1), two(2), three(3), seven(7);
-  const std::vector<team> teams{team(),
-                                team::omp(1),
-                                team::omp(2),
-                                team::omp(3),
-                                team::omp(7),
-                                team::tbb(1, one),
-                                team::tbb(2, two),
-                                team::tbb(3, three),
-                                team::tbb(7, seven)};
   counting_sort s;  // one object for all: what it keeps from call to call must not matter
   for (int bits = 1; bits <= 32; bits += GetParam() > 1000 ? 3 : 1) {
     const order keys = random_keys(GetParam(), bits, 7u + static_cast<unsigned>(bits));
     const order expected = by_the_standard_library(keys);
-    for (std::size_t k = 0; k < teams.size(); ++k)
-      ASSERT_EQ(sorted(s, keys, bits, teams[k]), expected) << bits << " bits, team " << k;
+    ASSERT_EQ(sorted(s, keys, bits, team()), expected) << bits << " bits, serial";
+    for (const runtime kind : {runtime::omp, runtime::tbb})
+      for (const int threads : {1, 2, 3, 7}) {
+        test_kit::workers w(kind, threads);
+        ASSERT_EQ(sorted(s, keys, bits, w.get()), expected)
+            << bits << " bits, " << name_of(kind) << " " << threads;
+      }
   }
 }
 

@@ -106,6 +106,7 @@ std::map<key, std::set<std::uint32_t>> contents(const indexed_scene& s) {
 
 TEST_P(indexer_test, build_after_small_moves_equals_a_fresh_build) {
   scene moved = make_scene("dam_break", 0.05, "perturbed");
+  const auto before = contents(s);
   const counter_random random(5);
   for (std::size_t k = 0; k < s.particles.size(); ++k)
     for (int d = 0; d < 3; ++d) {
@@ -114,7 +115,6 @@ TEST_P(indexer_test, build_after_small_moves_equals_a_fresh_build) {
         s.particles.x[d][k] += random.uniform(3 * id + static_cast<unsigned>(d), 0, 0.02);
       moved.particles.x[d][id] = s.particles.x[d][k];
     }
-  const auto before = contents(s);
   s.index.build(s.particles, team::omp(2));
   const indexed_scene fresh(moved, GetParam());
   const auto after = contents(s);

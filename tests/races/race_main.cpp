@@ -1,9 +1,9 @@
 // Runs one OpenMP backend for the race detector to watch. Exit status: 0, 2 for bad use, the
 // detector's own if it reports a race.
 //
-//   race_main --list            starts the threads, names the library's OpenMP backends, then the planted ones
-//   race_main --backend NAME    a backend of the library
-//   race_main --planted NAME    a backend with a race on purpose
+//   race_main --list            starts the threads, names the library's OpenMP backends, then the
+//   planted ones race_main --backend NAME    a backend of the library race_main --planted NAME    a
+//   backend with a race on purpose
 #include <omp.h>
 
 #include <cstdio>
