@@ -5,3 +5,7 @@ target_compile_options(pairsum_options INTERFACE -Wall -Wextra -fno-math-errno -
 if(PAIRSUM_NATIVE)
   target_compile_options(pairsum_options INTERFACE -march=native)
 endif()
+
+# For code that is never timed: it compiles in half the time.
+add_library(pairsum_cold INTERFACE)
+target_compile_options(pairsum_cold INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-O1>)

@@ -15,7 +15,7 @@ trap 'rm -f "$output"' EXIT
 fail() {
   echo "races: $*"
   echo "--- the last lines of the program"
-  tail -n 80 "$output"
+  tail -n 120 "$output"
   exit 1
 }
 
@@ -24,37 +24,34 @@ export OMP_DYNAMIC=false OMP_WAIT_POLICY=passive OMP_TOOL_LIBRARIES="$archer"
 # history_size: ThreadSanitizer drops a race without a word if it has forgotten where the earlier of the
 # two accesses was made. What it keeps by default is shorter than a pass, and then a missing barrier is
 # reported after minutes, if at all; 300 parts hold a whole summation (75 MiB a thread).
-options="ignore_noninstrumented_modules=1 exitcode=$race_status history_size=300"
+export TSAN_OPTIONS="ignore_noninstrumented_modules=1 exitcode=$race_status halt_on_error=1 history_size=300"
 # ThreadSanitizer wants its addresses where it expects them, which newer kernels' randomisation prevents.
 fixed=
 if setarch "$(uname -m)" -R true 2>/dev/null; then fixed="setarch $(uname -m) -R"; fi
 
-# run TSAN_OPTIONS ARGUMENT...: fills $output and $status
+# run ARGUMENT...: fills $output and $status
 run() {
-  tsan=$1
-  shift
-  TSAN_OPTIONS="$tsan" $fixed "$program" "$@" >"$output" 2>&1
+  $fixed "$program" "$@" >"$output" 2>&1
   status=$?
 }
 
 case $mode in
   archer)
     export ARCHER_OPTIONS="verbose=1"
-    run "$options" --list
+    run --list
     [ $status -eq 0 ] || fail "race_main --list exits with $status"
     grep -i 'archer detected' "$output" || fail "Archer is not detected ($archer); install libomp-14-dev"
     ;;
   clean)
-    run "$options" --backend "$name"
-    reports=$(grep -c 'WARNING: ThreadSanitizer' "$output")
-    [ "$reports" -eq 0 ] || fail "$name: $reports reports"
+    run --backend "$name"
+    ! grep -q 'WARNING: ThreadSanitizer' "$output" || fail "$name: ThreadSanitizer reports"
     [ $status -eq 0 ] || fail "$name exits with $status"
     grep -q "^race_main: $name done\$" "$output" || fail "$name did not finish"
     grep '^race_main: .* fluid particles' "$output"
     echo "races: $name: no report"
     ;;
   planted)
-    run "$options halt_on_error=1" --planted "$name"
+    run --planted "$name"
     [ $status -eq $race_status ] || fail "planted $name exits with $status, not with $race_status"
     grep -q 'WARNING: ThreadSanitizer: data race' "$output" || fail "planted $name: no data race reported"
     phase=$(sed -n '/WARNING: ThreadSanitizer/q; s/^race_main: phase //p' "$output" | tail -n 1)
