@@ -97,12 +97,13 @@ json time_or_null(const measured_point& p, std::optional<double> phases::*phase)
 
 json thread_speedups(const measurements& all, std::vector<std::string>& caveats) {
   json entries = json::array();
+  std::vector<std::string> without_base;
   for (const measured_point& own : all.points) {
     const point& p = own.point;
     if (!comparable(own) || (p.threads == 1 && !has_siblings(all, own))) continue;
     const measured_point* base = find(all, own.series, p.backend, p.grid, p.M, 1);
     if (base == nullptr) {
-      caveats.push_back(label(all, own) + ": no speedup, its base on 1 thread is missing");
+      without_base.push_back(label(all, own));
       continue;
     }
     const speedup s = speedup_over(all, *base, own, caveats);
@@ -119,6 +120,8 @@ json thread_speedups(const measurements& all, std::vector<std::string>& caveats)
     entry["efficiency"] = s.efficiency(p.threads);
     entries.push_back(entry);
   }
+  if (!without_base.empty())
+    caveats.push_back("no speedup, the base on 1 thread is missing: " + first_few(without_base));
   return entries;
 }
 

@@ -218,4 +218,11 @@ std::string label(const measurements& all, const measured_point& p) {
                      p.point.state, p.point.dx, p.point.order, all.series[p.series].study);
 }
 
+std::string first_few(const std::vector<std::string>& texts) {
+  constexpr std::size_t most = 3;
+  std::string list;
+  for (std::size_t k = 0; k < std::min(texts.size(), most); ++k) list += (k ? ", " : "") + texts[k];
+  return texts.size() > most ? fmt::format("{} and {} more points", list, texts.size() - most) : list;
+}
+
 }  // namespace pairsum::harness

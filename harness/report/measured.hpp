@@ -75,4 +75,7 @@ std::string label(const point& p);
 /// The same for a caveat: with several series, the problem too.
 std::string label(const measurements& all, const measured_point& p);
 
+/// "A, B, C": at most three of the texts, then how many more there are.
+std::string first_few(const std::vector<std::string>& texts);
+
 }  // namespace pairsum::harness

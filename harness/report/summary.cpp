@@ -62,10 +62,10 @@ json series_entry(const series& s) {
 template <class Says>
 void add_point_caveat(const measurements& all, const std::string& what, Says says,
                       std::vector<std::string>& caveats) {
-  std::string list;
+  std::vector<std::string> points;
   for (const measured_point& p : all.points)
-    if (says(p)) list += (list.empty() ? "" : ", ") + label(all, p);
-  if (!list.empty()) caveats.push_back(what + ": " + list);
+    if (says(p)) points.push_back(label(all, p));
+  if (!points.empty()) caveats.push_back(what + ": " + first_few(points));
 }
 
 std::vector<std::string> without_repeats(const std::vector<std::string>& texts) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include "core/same_code.hpp"
 #include "core/team.hpp"
 #include "sum/one_against_many.hpp"
 
@@ -50,7 +51,7 @@ void each_block(const cells<D>& c, std::size_t begin, std::size_t end, Emit&& em
 /// sumF1(B) and the sumF2 of the pattern, as b(d)+1 cell pairs grouped by their lower cell: particle i of cell j meets all later cells
 /// k with j & k == 0 in one go. Touches fluid particles of the block's cells and no others.
 template <class I, class Probe>
-void sum_block(const problem<I>& p, const block<I::dim>& members, Probe& probe) {
+PAIRSUM_SAME_CODE void sum_block(const problem<I>& p, const block<I::dim>& members, Probe& probe) {
   constexpr unsigned n = pattern::block_cells<I::dim>;
   const auto& range = p.cells().range;
   for (unsigned j = 0; j < n; ++j) {

@@ -1,11 +1,12 @@
 #pragma once
+#include "core/same_code.hpp"
 #include "sum/one_against_many.hpp"
 
 namespace pairsum {
 
 /// Every fluid particle of a cell collects from the 3^d cells around it. Writes the rates of this cell's particles alone.
 template <class I, class Probe>
-void gather_cell(const problem<I>& p, std::size_t cell, Probe& probe) {
+PAIRSUM_SAME_CODE void gather_cell(const problem<I>& p, std::size_t cell, Probe& probe) {
   constexpr unsigned stencil = cells<I::dim>::stencil;
   const auto& c = p.cells();
   const cell_range& own = c.range[cell];

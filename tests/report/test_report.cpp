@@ -159,8 +159,8 @@ TEST_F(report, caveats_are_said) {
   EXPECT_TRUE(
       has_caveat(s, "fewer than 6 repetitions, so no interval: symmetric_tbb M=6 threads=4"));
   EXPECT_TRUE(
-      has_caveat(s, "coloured_omp M=6 threads=2: no speedup, its base on 1 thread is missing"));
-  EXPECT_TRUE(has_caveat(s, "naive_omp M=6 threads=2: no speedup"));
+      has_caveat(s, "no speedup, the base on 1 thread is missing: coloured_omp M=6 threads=2"));
+  EXPECT_TRUE(has_caveat(s, "the base on 1 thread is missing: coloured_omp M=6 threads=2, naive_omp M=6 threads=2"));
   EXPECT_TRUE(has_caveat(s, "uncommitted changes"));
   EXPECT_TRUE(only(s["speedup"], {{"backend", "coloured_omp"}}).is_null());
   EXPECT_CONTAINS(text_, "- more threads than cores: ");
