@@ -1,18 +1,24 @@
-"""All backends at their best M: time per interacting pair, fastest on top."""
+"""All backends at their best M: time per interacting pair and its parts, fastest on top."""
+from matplotlib.colors import to_rgb
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
 import labels
 import layout
 import panels
 import style
-from summary import NoData
+from summary import PAIR_PARTS, NoData
 
 NAME = "ladder"
 _BAR = 0.26  # inches per bar
+#: Parts in their order in time: (key, hatch); the summation is solid, the others are light.
+_PARTS = (("prepare", "////"), ("zero", ""), ("sum", ""), ("reduce", "...."))
 
 
 def draw(summary):
     """Return the figure, or raise NoData. Per state (case, dx, ...): 1 thread and most threads."""
     groups = []
-    for panel in panels.of_points(summary, lambda entry: entry["ns_per_pair"] is not None):
+    for panel in panels.of_points(summary, _known):
         one = best(row for row in panel.rows if row["threads"] == 1)
         most = best(_at_most_threads(panel.rows))
         columns = [("1 thread", one)] if one else []
@@ -20,28 +26,46 @@ def draw(summary):
             columns.append(("each at its most threads", most))
         groups.append((panel, columns))
     if not groups:
-        raise NoData('no entry of "points" has ns_per_pair')
+        raise NoData('no entry of "points" has all ns_per_pair_parts')
     common, own = panels.titles([panel for panel, _ in groups])
     places = layout.arrange([columns for _, columns in groups], most=2)
     rows = max(len(some) for _, columns in groups for _, some in columns)
     names = [_name(row) for _, columns in groups for _, some in columns for row in some]
     titles = {place: panels.joined(text, column) for (_, columns), text, group
               in zip(groups, own, places) for (column, _), place in zip(columns, group)}
-    page = layout.Sheet(summary, "Time per interacting pair, each backend at its best M", common,
+    values = [_value(row) for _, columns in groups for _, some in columns for row in some]
+    page = layout.Sheet(summary, "prepare + zero + sum + reduce, ns per interacting pair", common,
                         titles, 3.1, 0.15 + _BAR * rows,
-                        (labels.tick_room(names), 0.45))
+                        (labels.tick_room(names), labels.room(values)), head=0.3)
     for (_, columns), group in zip(groups, places):
-        right = max(row["ns_per_pair"] for _, some in columns for row in some)
+        right = max(_end(row) for _, some in columns for row in some)
         for (_, some), place in zip(columns, group):
             _panel(page.axes[place], some, right)
+    handles = [Patch(label=part, **_look(part, hatch, style.MUTED)) for part, hatch in _PARTS]
+    handles.append(Line2D([], [], linestyle="", label="number: all (sum alone), at the best M"))
+    page.figure.legend(handles=handles, loc="upper left", ncol=len(handles), frameon=False,
+                       bbox_to_anchor=(0.1 / page.size[0], 1 - (page.head - 0.42) / page.size[1]),
+                       borderaxespad=0, handlelength=1.6, columnspacing=1.4)
     return page.figure
 
 
 def best(rows):
-    """Return each backend's row with the smallest ns_per_pair, fastest first."""
-    return sorted((min(some, key=lambda row: row["ns_per_pair"])
-                   for _, some in panels.split(rows, "backend")),
-                  key=lambda row: row["ns_per_pair"])
+    """Return each backend's row with the smallest time of all parts, fastest first."""
+    return sorted((min(some, key=_all) for _, some in panels.split(rows, "backend")), key=_all)
+
+
+def _known(entry):
+    parts = entry.get("ns_per_pair_parts", {})
+    return all(parts.get(part) is not None for part in PAIR_PARTS)
+
+
+def _all(row):
+    return row["ns_per_pair_parts"]["all"]
+
+
+def _end(row):
+    """Return where the bar ends: the medians of the parts need not add up to that of all."""
+    return sum(row["ns_per_pair_parts"][part] for part, _ in _PARTS)
 
 
 def _at_most_threads(rows):
@@ -54,16 +78,31 @@ def _name(row):
     return f"{row['backend']}, {panels.m_text(row['M'])}, {row['threads']} thr."
 
 
-def _value(nanoseconds):
+def _value(row):
+    return f"{_number(_all(row))} ({_number(row['ns_per_pair_parts']['sum'])})"
+
+
+def _number(nanoseconds):
     return f"{nanoseconds:.1f}" if nanoseconds >= 10 else f"{nanoseconds:#.3g}"
+
+
+def _look(part, hatch, colour):
+    """Return how a part is drawn in the colour of its backend."""
+    light = tuple(0.3 * channel + 0.7 for channel in to_rgb(colour))
+    return {"facecolor": colour if part == "sum" else light, "hatch": hatch,
+            "edgecolor": style.INK, "linewidth": 0.5}
 
 
 def _panel(axes, rows, right):
     for at, row in enumerate(rows):
-        axes.barh(at, row["ns_per_pair"], height=0.7, color=style.colour(row["backend"]),
-                  edgecolor=style.INK, linewidth=0.5,
-                  label=f"{row['backend']} {panels.m_text(row['M'])}")
-        axes.annotate(_value(row["ns_per_pair"]), (row["ns_per_pair"], at), xytext=(4, 0),
+        left, name = 0.0, f"{row['backend']} {panels.m_text(row['M'])}"
+        for part, hatch in _PARTS:
+            length = row["ns_per_pair_parts"][part]
+            axes.barh(at, length, left=left, height=0.7,
+                      label=name if part == "sum" else f"{part} of {name}",
+                      **_look(part, hatch, style.colour(row["backend"])))
+            left += length
+        axes.annotate(_value(row), (left, at), xytext=(4, 0),
                       textcoords="offset points", va="center", fontsize=style.SMALL)
     axes.set_yticks(range(len(rows)), [_name(row) for row in rows])
     axes.set_ylim(len(rows) - 0.4, -0.6)

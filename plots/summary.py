@@ -24,6 +24,7 @@ POINT = {**_PLACE, "n_fluid": NUMBER, "n_boundary": NUMBER, "precision": TEXT,
 #: Other fields that may tell panels apart.
 _SCALARS = ("H", "order", "dim", "smoothing", "integrator", "dt", "isa", "grid", "study", "series")
 PHASES = ("index_s", "prepare_s", "zero_s", "sum_s", "reduce_s", "integrate_s", "total_s")
+PAIR_PARTS = ("prepare", "zero", "sum", "reduce", "all")
 
 
 class SummaryError(Exception):
@@ -72,6 +73,8 @@ def check(data, path="the summary"):
     for number, entry in enumerate(data["points"]):
         where = f"{path}: points[{number}]"
         _check_row(entry, {"ns_per_pair": OPTIONAL}, where)
+        _check_row(entry.get("ns_per_pair_parts", dict.fromkeys(PAIR_PARTS)),
+                   dict.fromkeys(PAIR_PARTS, OPTIONAL), f"{where}.ns_per_pair_parts")
         _check_row(entry.get("point"), POINT, f"{where}.point")
         if not isinstance(entry.get("phases"), dict):
             raise SummaryError(f'{where} has no object "phases"')

@@ -7,7 +7,8 @@ class App;
 
 namespace pairsum::harness {
 
-/// Each adds its subcommand to the program; `chosen` receives what to do if that subcommand was called, and returns the exit code.
+/// Each adds its subcommand to the program; `chosen` receives what to do if that subcommand was called, and returns the
+/// exit code.
 using action = std::function<int()>;
 void add_list_command(CLI::App& app, action& chosen);
 void add_verify_command(CLI::App& app, action& chosen);

@@ -25,13 +25,14 @@ nlohmann::json as_json() {
                      {"orders", memory_orders},
                      {"states", case_states}};
   for (const backend_entry& b : r.backends())
-    all["backends"].push_back({{"name", b.traits.name},
-                               {"description", b.traits.description},
-                               {"aliases", b.traits.aliases},
-                               {"threads", name_of(b.traits.threads)},
-                               {"symmetric", b.traits.symmetric},
-                               {"deterministic", b.traits.deterministic},
-                               {"unavailable", b.unavailable.empty() ? nlohmann::json() : nlohmann::json(b.unavailable)}});
+    all["backends"].push_back(
+        {{"name", b.traits.name},
+         {"description", b.traits.description},
+         {"aliases", b.traits.aliases},
+         {"threads", name_of(b.traits.threads)},
+         {"symmetric", b.traits.symmetric},
+         {"deterministic", b.traits.deterministic},
+         {"unavailable", b.unavailable.empty() ? nlohmann::json() : nlohmann::json(b.unavailable)}});
   for (const case_entry& c : case_entries()) all["cases"].push_back({{"name", c.name}, {"description", c.description}});
   for (const integrator_entry& i : integrator_entries())
     all["integrators"].push_back({{"name", i.name}, {"description", i.description}});
@@ -43,7 +44,8 @@ void print_text() {
   fmt::print("backends\n");
   for (const backend_entry& b : r.backends()) {
     fmt::print("  {:<16}{:<7}{}\n", b.traits.name, name_of(b.traits.threads), b.traits.description);
-    fmt::print("  {:<23}also: {}{}\n", "", b.traits.aliases, b.unavailable.empty() ? "" : "  [unavailable: " + b.unavailable + "]");
+    fmt::print("  {:<23}also: {}{}\n", "", b.traits.aliases,
+               b.unavailable.empty() ? "" : "  [unavailable: " + b.unavailable + "]");
   }
   fmt::print("cases\n");
   for (const case_entry& c : case_entries()) fmt::print("  {:<16}{}\n", c.name, c.description);
@@ -51,10 +53,11 @@ void print_text() {
   for (const integrator_entry& i : integrator_entries()) fmt::print("  {:<16}{}\n", i.name, i.description);
   std::vector<std::string> dims;
   for (const int d : r.dims()) dims.push_back(fmt::format("{}D", d));
-  fmt::print("interactions      {}\nsmoothing kernels {}\nprecisions        {}\ndimensions        {}\ngrids             {}\n"
-             "orders of memory  {}\nstates            {}\n",
-             join(r.interactions()), join(r.smoothings()), join(r.precisions()), join(dims), join(grid_names()),
-             join(memory_orders), join(case_states));
+  fmt::print(
+      "interactions      {}\nsmoothing kernels {}\nprecisions        {}\ndimensions        {}\ngrids             {}\n"
+      "orders of memory  {}\nstates            {}\n",
+      join(r.interactions()), join(r.smoothings()), join(r.precisions()), join(dims), join(grid_names()),
+      join(memory_orders), join(case_states));
 }
 
 }  // namespace

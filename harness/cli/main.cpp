@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/environment/environment.hpp"
 
@@ -30,6 +32,12 @@ int run_program(int argc, char** argv) {
   pairsum::harness::add_verify_command(app, chosen);
   pairsum::harness::add_run_command(app, chosen);
   pairsum::harness::add_report_command(app, chosen);
+  if (argc > 1 && argv[1][0] != '-') {
+    std::vector<std::string> commands;
+    for (const CLI::App* c : app.get_subcommands({})) commands.push_back(c->get_name());
+    if (std::find(commands.begin(), commands.end(), argv[1]) == commands.end())
+      throw pairsum::unknown_name("command", argv[1], commands);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

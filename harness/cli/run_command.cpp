@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "core/error.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/plan/words.hpp"
@@ -15,6 +16,7 @@ struct run_options {
   run_request request;
   std::string dx = "0.02", state = "rest", backend = "naive_omp,symmetric_omp", M = "6,7", threads = "all";
   std::string out, results = "results";
+  bool out_given = false;
 };
 
 int start(const run_options& o) {
@@ -25,7 +27,9 @@ int start(const run_options& o) {
   r.M = parse_counts("--M", o.M, 0);
   r.threads = parse_counts("--threads", o.threads, usable_cores());
   check_request(r);
-  const std::filesystem::path path = o.out.empty() ? default_rows_path(o.results, r.study) : std::filesystem::path(o.out);
+  if (o.out_given && o.out.empty()) throw error("--out takes the name of a file, not \"\"");
+  const std::filesystem::path path =
+      o.out.empty() ? default_rows_path(o.results, r.study) : std::filesystem::path(o.out);
   const int code = run(r, path);
   fmt::print("rows: {}\n", path.string());
   return code;
@@ -42,14 +46,19 @@ void add_run_command(CLI::App& app, action& chosen) {
   run_request& r = o->request;
   command->add_option("--study", r.study, "name of the study, a folder under --results")->capture_default_str();
   command->add_option("--case", r.case_name, "initial condition (pairsum list)")->capture_default_str();
-  command->add_option("--dx", o->dx, "particle spacing in m, a list; 0.00594 is the talk's 2,014,966 particles")->capture_default_str();
+  command->add_option("--dx", o->dx, "particle spacing in m, a list; 0.00594 is the talk's 2,014,966 particles")
+      ->capture_default_str();
   command->add_option("--state", o->state, "rest, perturbed, or both")->capture_default_str();
   command->add_option("--backend", o->backend, "backends, a list (pairsum list)")->capture_default_str();
-  command->add_option("--M", o->M, "hash sizes, like 6,7 or 5..9: the grid is folded to 2^M cells an axis")->capture_default_str();
-  command->add_option("--threads", o->threads, "numbers of threads, or all: 1, 2, 4, ... and every core")->capture_default_str();
+  command->add_option("--M", o->M, "hash sizes, like 6,7 or 5..9: the grid is folded to 2^M cells an axis")
+      ->capture_default_str();
+  command->add_option("--threads", o->threads, "numbers of threads, or all: 1, 2, 4, ... and every core")
+      ->capture_default_str();
   command->add_option("--steps", r.steps, "time steps per repetition")->capture_default_str();
   command->add_option("--repetitions", r.repetitions, "repetitions; intervals need at least 6")->capture_default_str();
-  command->add_option("--budget", r.budget_s, "stop after the last repetition that fits into so many seconds (0: no limit)")
+  command
+      ->add_option("--budget", r.budget_s,
+                   "stop after the last repetition that fits into so many seconds (0: no limit)")
       ->capture_default_str();
   command->add_option("--dim", r.dim, "dimension")->capture_default_str();
   command->add_option("--H", r.H, "support radius in m (0: 2 dx)")->capture_default_str();
@@ -59,15 +68,20 @@ void add_run_command(CLI::App& app, action& chosen) {
   command->add_option("--integrator", r.integrator, "time stepping")->capture_default_str();
   command->add_option("--dt", r.dt, "time step in s")->capture_default_str();
   command->add_option("--grid", r.grid, "grid")->capture_default_str();
-  command->add_option("--order", r.order, "order of memory at the start: lattice, shuffled, morton")->capture_default_str();
+  command->add_option("--order", r.order, "order of memory at the start: lattice, shuffled, morton")
+      ->capture_default_str();
   command->add_option("--outside", r.outside, "particles outside Omega: error or drop")->capture_default_str();
   command->add_option("--seed", r.seed, "of the perturbation and of the order of measuring")->capture_default_str();
-  command->add_option("--out", o->out, "rows file; appended to if it exists (default: RESULTS/STUDY/HOST-UTC-GIT.jsonl)");
+  command->add_option("--out", o->out,
+                      "rows file; appended to if it exists (default: RESULTS/STUDY/HOST-UTC-GIT.jsonl)");
   command->add_option("--results", o->results, "folder of the default rows file")->capture_default_str();
   command->footer(
       "Example, the talk's headline:\n"
       "  pairsum run --study talk --dx 0.00594 --backend naive_omp,symmetric_omp --M 6,7 --threads all --steps 5");
-  command->callback([&chosen, o] { chosen = [o] { return start(*o); }; });
+  command->callback([&chosen, o, command] {
+    o->out_given = command->count("--out") > 0;
+    chosen = [o] { return start(*o); };
+  });
 }
 
 }  // namespace pairsum::harness

@@ -15,7 +15,8 @@ namespace {
 
 struct verify_options {
   run_request request;
-  std::string dx = "0.04", state = "perturbed", backend = "all", interaction = "all", M = "2,3,6,7", threads = "1,2,3,7";
+  std::string dx = "0.04", state = "perturbed", backend = "all", interaction = "all", M = "2,3,6,7",
+              threads = "1,2,3,7";
 };
 
 int verify(verify_options o) {
@@ -53,13 +54,15 @@ int verify(verify_options o) {
       fmt::print("{} dx={} {}: {} fluid, {} boundary particles\n", q.case_name, dx, state,
                  c.particles.count(particle_kind::fluid), c.particles.count(particle_kind::boundary));
       fmt::print("{:<12}{:<16}{:>4}{:>9}   {}\n", "interaction", "backend", "M", "threads", "largest error / bound");
-      ok = verify_all(r, c, plan, [&](const verify_line& l) {
-             ++lines;
-             failed += !l.ok;
-             fmt::print("{:<12}{:<16}{:>4}{:>9}   {}\n", l.interaction, l.backend, l.M, l.threads,
-                        l.ok ? fmt::format("{:.3g}", l.share) : "FAILED: " + l.error);
-             std::fflush(stdout);
-           }) && ok;
+      ok = verify_all(r, c, plan,
+                      [&](const verify_line& l) {
+                        ++lines;
+                        failed += !l.ok;
+                        fmt::print("{:<12}{:<16}{:>4}{:>9}   {}\n", l.interaction, l.backend, l.M, l.threads,
+                                   l.ok ? fmt::format("{:.3g}", l.share) : "FAILED: " + l.error);
+                        std::fflush(stdout);
+                      }) &&
+           ok;
     }
   fmt::print("{} of {} sums agree with the reference\n", lines - failed, lines);
   return ok ? 0 : 1;
@@ -75,7 +78,8 @@ void add_verify_command(CLI::App& app, action& chosen) {
   const auto o = std::make_shared<verify_options>();
   command->add_option("--case", o->request.case_name, "initial condition")->capture_default_str();
   command->add_option("--dx", o->dx, "particle spacing in m, a list")->capture_default_str();
-  command->add_option("--state", o->state, "rest, perturbed, or both; in rest many terms are zero")->capture_default_str();
+  command->add_option("--state", o->state, "rest, perturbed, or both; in rest many terms are zero")
+      ->capture_default_str();
   command->add_option("--backend", o->backend, "backends, or all")->capture_default_str();
   command->add_option("--interaction", o->interaction, "interactions, or all")->capture_default_str();
   command->add_option("--M", o->M, "hash sizes, like 2,3 or 5..9")->capture_default_str();

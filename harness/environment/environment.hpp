@@ -5,8 +5,8 @@
 
 namespace pairsum::harness {
 
-/// Describes this machine and this build. The id (`environment`) is a hash of everything but the time and the study, so equal
-/// conditions have equal ids.
+/// Describes this machine and this build. The id (`environment`) is a hash of everything but the time and the study, so
+/// equal conditions have equal ids.
 environment_row describe_environment(const std::string& study);
 
 /// Version, revision, compiler and flags of this build, for --version.

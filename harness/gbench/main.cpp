@@ -47,8 +47,9 @@ int run(int argc, char** argv) {
   std::vector<char*> words{argv[0]};
   for (std::string& w : rest) {
     if (w == "--help" || w == "-h")
-      fmt::print("pairsum_bench [--case NAME] [--dx M] [--state rest|perturbed] [--M 6,7] [--threads 1,2|all] "
-                 "[--benchmark_filter=REGEX ...]\n");
+      fmt::print(
+          "pairsum_bench [--case NAME] [--dx M] [--state rest|perturbed] [--M 6,7] [--threads 1,2|all] "
+          "[--benchmark_filter=REGEX ...]\n");
     words.push_back(w.data());
   }
   int n = static_cast<int>(words.size());

@@ -4,7 +4,8 @@
 
 namespace pairsum::harness {
 
-/// Keeps freed memory in the process, so that a later measurement does not pay for page faults of an earlier one's memory.
+/// Keeps freed memory in the process, so that a later measurement does not pay for page faults of an earlier one's
+/// memory.
 void keep_freed_memory();
 
 /// Restarts the kernel's record of the largest resident set of this process, where the kernel allows it.

@@ -17,18 +17,14 @@
 namespace pairsum::harness {
 namespace {
 
-template <class Names>
-void check_word(std::string_view what, std::string_view word, const Names& valid) {
-  if (std::ranges::find(valid, word) == valid.end()) throw unknown_name(what, word, valid);
-}
-
 void check_at_least(const char* what, double value, double least) {
   if (!(value >= least) || !std::isfinite(value))
     throw error(fmt::format("{} must be at least {}, is {}", what, least, value));
 }
 
 void check_positive(const char* what, double value) {
-  if (!(value > 0) || !std::isfinite(value)) throw error(fmt::format("{} must be a positive number, is {}", what, value));
+  if (!(value > 0) || !std::isfinite(value))
+    throw error(fmt::format("{} must be a positive number, is {}", what, value));
 }
 
 }  // namespace
@@ -42,6 +38,9 @@ void check_request(const run_request& r, const registry& all) {
   check_word("interaction", r.interaction, all.interactions());
   check_word("smoothing kernel", r.smoothing, all.smoothings());
   check_word("precision", r.precision, all.precisions());
+  std::vector<std::string> dims;
+  for (const int d : all.dims()) dims.push_back(fmt::format("{}D", d));
+  check_word("dimension", fmt::format("{}D", r.dim), dims);
   check_word("order", r.order, memory_orders);
   check_word("grid", r.grid, grid_names());
   check_word("value of --outside", r.outside, std::vector<std::string_view>{"error", "drop"});
@@ -49,10 +48,7 @@ void check_request(const run_request& r, const registry& all) {
   for (const double dx : r.dx) check_positive("dx", dx);
   if (r.H != 0) check_positive("H", r.H);
   check_positive("dt", r.dt);
-  for (const int M : r.M)
-    if (M < 2 || r.dim * M > 30)
-      throw error(fmt::format("M must be between 2 and {} in {}D, is {}{}", 30 / r.dim, r.dim, M,
-                              M == 1 ? " (with M = 1 the neighbours -1 and +1 are one cell)" : ""));
+  for (const int M : r.M) check_hash_size(r.dim, M);
   for (const int t : r.threads) {
     check_at_least("threads", t, 1);
     if (t > 4096) throw error(fmt::format("threads must be at most 4096, is {}", t));
@@ -61,7 +57,8 @@ void check_request(const run_request& r, const registry& all) {
   check_at_least("repetitions", r.repetitions, 1);
   check_at_least("budget", r.budget_s, 0);
   if (r.study.empty() || r.study.find_first_of("/\\ \t\n") != std::string::npos || r.study.front() == '.')
-    throw error(fmt::format("a study's name is a folder's name: no slash, no blank, no leading dot, is \"{}\"", r.study));
+    throw error(
+        fmt::format("a study's name is a folder's name: no slash, no blank, no leading dot, is \"{}\"", r.study));
 }
 
 std::vector<world_plan> expand(const run_request& r, const registry& all) {

@@ -26,8 +26,8 @@ struct run_request {
   std::uint64_t seed = 1;
 };
 
-/// Throws pairsum::error, in one line, for a request that makes no sense (unknown words, numbers out of range), before anything is
-/// computed or written.
+/// Throws pairsum::error, in one line, for a request that makes no sense (unknown words, numbers out of range), before
+/// anything is computed or written.
 void check_request(const run_request& r, const registry& all = registry::instance());
 
 /// One world: the points of a world share particles and reference.
@@ -40,7 +40,8 @@ struct world_plan {
 /// The points, grouped by world. A serial backend appears once per M, with 1 thread.
 std::vector<world_plan> expand(const run_request& r, const registry& all = registry::instance());
 
-/// The order in which repetition `repetition` measures `n` points: a permutation that depends on (seed, repetition) alone.
+/// The order in which repetition `repetition` measures `n` points: a permutation that depends on (seed, repetition)
+/// alone.
 std::vector<std::size_t> shuffled_order(std::size_t n, std::uint64_t seed, int repetition);
 
 }  // namespace pairsum::harness

@@ -15,8 +15,7 @@ N number(const std::string& option, const std::string& word, const char* kind) {
   N value{};
   const char* const end = word.data() + word.size();
   const auto [stop, failed] = std::from_chars(word.data(), end, value);
-  if (failed != std::errc{} || stop != end)
-    throw error(fmt::format("{} takes {}, not \"{}\"", option, kind, word));
+  if (failed != std::errc{} || stop != end) throw error(fmt::format("{} takes {}, not \"{}\"", option, kind, word));
   return value;
 }
 
@@ -47,8 +46,10 @@ std::vector<int> parse_counts(const std::string& option, const std::string& text
       for (int t = 1; t < cores; t *= 2) add_once(values, t);
       add_once(values, cores);
     } else if (dots != word.npos) {
-      const int first = number<int>(option, word.substr(0, dots), kind), last = number<int>(option, word.substr(dots + 2), kind);
-      if (last < first || last - first > 10000) throw error(fmt::format("{}: \"{}\" is no ascending range", option, word));
+      const int first = number<int>(option, word.substr(0, dots), kind),
+                last = number<int>(option, word.substr(dots + 2), kind);
+      if (last < first || last - first > 10000)
+        throw error(fmt::format("{}: \"{}\" is no ascending range", option, word));
       for (int v = first; v <= last; ++v) add_once(values, v);
     } else {
       add_once(values, number<int>(option, word, kind));

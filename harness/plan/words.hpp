@@ -4,7 +4,8 @@
 
 namespace pairsum::harness {
 
-/// "1,2,4" -> {1,2,4}; "all" -> powers of two up to `cores`, and `cores`; ranges "5..9" too. Errors name the option and the word.
+/// "1,2,4" -> {1,2,4}; "all" -> powers of two up to `cores`, and `cores`; ranges "5..9" too. Errors name the option and
+/// the word.
 std::vector<int> parse_counts(const std::string& option, const std::string& text, int cores);
 
 /// "0.02,0.03" -> {0.02, 0.03}; an error names the word that is no number.

@@ -18,8 +18,7 @@ times_by_repetition sum_times(const measured_point& point) {
   times_by_repetition times;
   for (const auto& entry : point.repetitions)
     if (entry.second.sum_s && *entry.second.sum_s > 0)
-      times[{entry.first.file, entry.first.round, entry.first.repetition}].push_back(
-          *entry.second.sum_s);
+      times[{entry.first.file, entry.first.round, entry.first.repetition}].push_back(*entry.second.sum_s);
   return times;
 }
 
@@ -29,8 +28,8 @@ bool comparable(const measured_point& p) {
 }
 
 /// Base time over other time; both must be comparable.
-ratio_estimate compare(const measurements& all, const measured_point& base,
-                       const measured_point& other, std::vector<std::string>& caveats) {
+ratio_estimate compare(const measurements& all, const measured_point& base, const measured_point& other,
+                       std::vector<std::string>& caveats) {
   std::vector<double> base_times, other_times;
   const times_by_repetition others = sum_times(other);
   for (const auto& entry : sum_times(base)) {
@@ -50,17 +49,14 @@ ratio_estimate compare(const measurements& all, const measured_point& base,
 const measured_point* find(const measurements& all, std::size_t series, const std::string& backend,
                            const std::string& grid, int M, int threads) {
   for (const measured_point& p : all.points)
-    if (p.series == series && p.point.backend == backend && p.point.grid == grid &&
-        p.point.M == M && p.point.threads == threads)
+    if (p.series == series && p.point.backend == backend && p.point.grid == grid && p.point.M == M &&
+        p.point.threads == threads)
       return comparable(p) ? &p : nullptr;
   return nullptr;
 }
 
 json head(const measured_point& p) {
-  return {{"series", p.series},
-          {"case", p.point.case_name},
-          {"state", p.point.state},
-          {"dx", p.point.dx}};
+  return {{"series", p.series}, {"case", p.point.case_name}, {"state", p.point.state}, {"dx", p.point.dx}};
 }
 
 void put_ratio(json& entry, const char* key, double value, const std::optional<interval>& bounds) {
@@ -71,8 +67,7 @@ void put_ratio(json& entry, const char* key, double value, const std::optional<i
 
 speedup speedup_over(const measurements& all, const measured_point& base, const measured_point& own,
                      std::vector<std::string>& caveats) {
-  return speedup({label(base.point), *median_of(base, &phases::sum_s)},
-                 compare(all, base, own, caveats));
+  return speedup({label(base.point), *median_of(base, &phases::sum_s)}, compare(all, base, own, caveats));
 }
 
 /// The part of a backend's name behind "naive", "symmetric": "", "_omp" or "_tbb".
@@ -81,9 +76,8 @@ const char* const runtime_names[] = {"serial", "omp", "tbb"};
 
 bool has_siblings(const measurements& all, const measured_point& p) {
   for (const measured_point& q : all.points)
-    if (q.series == p.series && q.point.backend == p.point.backend &&
-        q.point.grid == p.point.grid && q.point.M == p.point.M &&
-        q.point.threads != p.point.threads)
+    if (q.series == p.series && q.point.backend == p.point.backend && q.point.grid == p.point.grid &&
+        q.point.M == p.point.M && q.point.threads != p.point.threads)
       return true;
   return false;
 }

@@ -13,9 +13,8 @@ namespace pairsum::harness {
 namespace {
 
 auto order_of(const point& p) {
-  return std::tie(p.case_name, p.state, p.dx, p.H, p.n_fluid, p.n_boundary, p.order, p.dim,
-                  p.precision, p.interaction, p.smoothing, p.integrator, p.dt, p.isa, p.backend,
-                  p.grid, p.M, p.threads);
+  return std::tie(p.case_name, p.state, p.dx, p.H, p.n_fluid, p.n_boundary, p.order, p.dim, p.precision, p.interaction,
+                  p.smoothing, p.integrator, p.dt, p.isa, p.backend, p.grid, p.M, p.threads);
 }
 
 struct point_less {
@@ -23,9 +22,7 @@ struct point_less {
 };
 
 /// What makes two environments the same machine and build.
-auto identity(const environment_row& e) {
-  return std::tie(e.host, e.cpu, e.compiler, e.flags, e.git, e.dirty);
-}
+auto identity(const environment_row& e) { return std::tie(e.host, e.cpu, e.compiler, e.flags, e.git, e.dirty); }
 
 /// The machines and builds that the environment rows name.
 class builds {
@@ -46,9 +43,8 @@ class builds {
     add_difference(text, "cpu", [](const environment_row& e) { return e.cpu; });
     add_difference(text, "compiler", [](const environment_row& e) { return e.compiler; });
     add_difference(text, "flags", [](const environment_row& e) { return e.flags; });
-    add_difference(text, "git", [](const environment_row& e) {
-      return e.git + (e.dirty ? " with uncommitted changes" : "");
-    });
+    add_difference(text, "git",
+                   [](const environment_row& e) { return e.git + (e.dirty ? " with uncommitted changes" : ""); });
     return text;
   }
 
@@ -119,10 +115,8 @@ void add_group(measurements& all, const group_key& key, group& g, const builds& 
   std::set<std::size_t> step_counts;
   for (auto& entry : g.repetitions) {
     std::vector<sample>& steps = entry.second;
-    std::sort(steps.begin(), steps.end(),
-              [](const sample& a, const sample& b) { return a.step < b.step; });
-    const std::size_t passed =
-        static_cast<std::size_t>(std::count_if(steps.begin(), steps.end(), verified));
+    std::sort(steps.begin(), steps.end(), [](const sample& a, const sample& b) { return a.step < b.step; });
+    const std::size_t passed = static_cast<std::size_t>(std::count_if(steps.begin(), steps.end(), verified));
     if (passed < steps.size()) {
       failed.rows += steps.size() - passed;
       for (const sample& s : steps)
@@ -134,8 +128,7 @@ void add_group(measurements& all, const group_key& key, group& g, const builds& 
     step_counts.insert(steps.size());
     for (const sample& s : steps) {
       if (!measured.work) measured.work = s.work;
-      if (s.peak_rss_bytes)
-        measured.peak_rss_bytes = std::max(measured.peak_rss_bytes.value_or(0), *s.peak_rss_bytes);
+      if (s.peak_rss_bytes) measured.peak_rss_bytes = std::max(measured.peak_rss_bytes.value_or(0), *s.peak_rss_bytes);
     }
   }
   if (failed.rows > 0) all.failed.push_back(failed);
@@ -145,15 +138,13 @@ void add_group(measurements& all, const group_key& key, group& g, const builds& 
   measured.cores = g.cores;
   measured.steps = *step_counts.rbegin();
   if (step_counts.size() > 1)
-    all.caveats.push_back(label(key.point) + ": its repetitions have " +
-                          std::to_string(*step_counts.begin()) + " to " +
+    all.caveats.push_back(label(key.point) + ": its repetitions have " + std::to_string(*step_counts.begin()) + " to " +
                           std::to_string(*step_counts.rbegin()) + " steps");
   all.points.push_back(std::move(measured));
 }
 
 void add_environment_caveats(measurements& all, const std::string& differences) {
-  if (!differences.empty())
-    all.caveats.push_back("rows of different machines or builds in one report: " + differences);
+  if (!differences.empty()) all.caveats.push_back("rows of different machines or builds in one report: " + differences);
   std::set<std::string> bindings, governors;
   bool dirty = false;
   for (const environment_row& e : all.environments) {
@@ -174,8 +165,7 @@ measurements collect(const std::vector<rows_file>& files, bool allow_mixed) {
   std::map<group_key, group> groups;
   std::set<std::string> listed;
   for (std::size_t file = 0; file < files.size(); ++file) {
-    all.sources.push_back(
-        (files[file].path.parent_path().filename() / files[file].path.filename()).generic_string());
+    all.sources.push_back((files[file].path.parent_path().filename() / files[file].path.filename()).generic_string());
     std::map<std::string, const environment_row*> environments;
     for (const environment_row& e : files[file].environments) environments[e.environment] = &e;
     for (const sample& s : files[file].valid_samples()) {
@@ -214,8 +204,8 @@ std::string label(const point& p) {
 
 std::string label(const measurements& all, const measured_point& p) {
   if (all.series.size() < 2) return label(p.point);
-  return fmt::format("{} ({}, {}, dx {}, {}, study {})", label(p.point), p.point.case_name,
-                     p.point.state, p.point.dx, p.point.order, all.series[p.series].study);
+  return fmt::format("{} ({}, {}, dx {}, {}, study {})", label(p.point), p.point.case_name, p.point.state, p.point.dx,
+                     p.point.order, all.series[p.series].study);
 }
 
 std::string first_few(const std::vector<std::string>& texts) {

@@ -15,7 +15,6 @@ struct report_options {
 /// tables as text. Throws pairsum::error with one line if a file is no valid rows file, if there
 /// are no samples, if the rows are mixed and that is not allowed, or if the summary cannot be
 /// written.
-std::string make_report(const std::vector<std::filesystem::path>& rows_files_or_folders,
-                        const report_options& options);
+std::string make_report(const std::vector<std::filesystem::path>& rows_files_or_folders, const report_options& options);
 
 }  // namespace pairsum::harness

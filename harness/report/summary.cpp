@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "harness/report/comparisons.hpp"
 #include "harness/stats/interval.hpp"
+#include "harness/stats/median.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -30,6 +31,31 @@ json phase_entry(const measured_point& p, std::optional<double> phases::*phase) 
   return entry;
 }
 
+/// The phases that a backend needs to get the rates, with their keys in "ns_per_pair_parts".
+constexpr phase_member pair_parts[] = {
+    {"prepare", &phases::prepare_s}, {"zero", &phases::zero_s}, {"sum", &phases::sum_s}, {"reduce", &phases::reduce_s}};
+
+/// The median over the repetitions of the time of all parts together; empty if one of them was not
+/// timed in all repetitions.
+std::optional<double> median_of_all_parts(const measured_point& p) {
+  std::vector<double> times;
+  for (const auto& entry : p.repetitions) {
+    double time = 0;
+    for (const phase_member& part : pair_parts) {
+      const std::optional<double>& value = entry.second.*part.value;
+      if (!value) return std::nullopt;
+      time += *value;
+    }
+    times.push_back(time);
+  }
+  return median(times);
+}
+
+json ns_per_pair(const measured_point& p, std::optional<double> time) {
+  if (!time || !p.work || p.work->pairs_interacting == 0) return nullptr;
+  return *time * 1e9 / static_cast<double>(p.work->pairs_interacting);
+}
+
 json point_entry(const measurements& all, const measured_point& p) {
   json entry;
   entry["point"] = p.point;
@@ -37,12 +63,11 @@ json point_entry(const measurements& all, const measured_point& p) {
   entry["series"] = p.series;
   entry["repetitions"] = p.repetitions.size();
   entry["steps"] = p.steps;
-  for (const phase_member& phase : phase_members)
-    entry["phases"][phase.name] = phase_entry(p, phase.value);
-  const auto time = median_of(p, &phases::sum_s);
-  entry["ns_per_pair"] = nullptr;
-  if (time && p.work && p.work->pairs_interacting > 0)
-    entry["ns_per_pair"] = *time * 1e9 / static_cast<double>(p.work->pairs_interacting);
+  for (const phase_member& phase : phase_members) entry["phases"][phase.name] = phase_entry(p, phase.value);
+  entry["ns_per_pair"] = ns_per_pair(p, median_of(p, &phases::sum_s));
+  for (const phase_member& part : pair_parts)
+    entry["ns_per_pair_parts"][part.name] = ns_per_pair(p, median_of(p, part.value));
+  entry["ns_per_pair_parts"]["all"] = ns_per_pair(p, median_of_all_parts(p));
   entry["useful_pair_ratio"] = useful_pair_ratio(p);
   entry["work"] = p.work ? json(*p.work) : json(nullptr);
   entry["peak_rss_bytes"] = p.peak_rss_bytes ? json(*p.peak_rss_bytes) : json(nullptr);
@@ -60,8 +85,7 @@ json series_entry(const series& s) {
 
 /// One caveat for all points of which the same is to be said.
 template <class Says>
-void add_point_caveat(const measurements& all, const std::string& what, Says says,
-                      std::vector<std::string>& caveats) {
+void add_point_caveat(const measurements& all, const std::string& what, Says says, std::vector<std::string>& caveats) {
   std::vector<std::string> points;
   for (const measured_point& p : all.points)
     if (says(p)) points.push_back(label(all, p));
@@ -90,11 +114,9 @@ void write_whole(int file, const std::string& text) {
 json build_summary(const measurements& all) {
   std::vector<std::string> caveats = all.caveats;
   add_point_caveat(
-      all, "more threads than cores", [](const auto& p) { return p.point.threads > p.cores; },
-      caveats);
+      all, "more threads than cores", [](const auto& p) { return p.point.threads > p.cores; }, caveats);
   add_point_caveat(
-      all, "fewer than 6 repetitions, so no interval",
-      [](const auto& p) { return p.repetitions.size() < 6; }, caveats);
+      all, "fewer than 6 repetitions, so no interval", [](const auto& p) { return p.repetitions.size() < 6; }, caveats);
   json summary;
   summary["schema"] = summary_schema;
   summary["sources"] = all.sources;
@@ -109,10 +131,9 @@ json build_summary(const measurements& all) {
   summary["m_comparison"] = m_comparisons(all);
   summary["failed"] = json::array();
   for (const failed_point& f : all.failed) {
-    summary["failed"].push_back(
-        {{"point", f.point}, {"study", f.study}, {"rows", f.rows}, {"error", f.error}});
-    caveats.push_back(label(f.point) + ": " + std::to_string(f.rows) +
-                      (f.rows == 1 ? " row" : " rows") + " without a passed verification left out");
+    summary["failed"].push_back({{"point", f.point}, {"study", f.study}, {"rows", f.rows}, {"error", f.error}});
+    caveats.push_back(label(f.point) + ": " + std::to_string(f.rows) + (f.rows == 1 ? " row" : " rows") +
+                      " without a passed verification left out");
   }
   summary["caveats"] = without_repeats(caveats);
   return summary;

@@ -50,17 +50,14 @@ std::string backend_name(const json& point) {
 /// One line of numbers of a point at one number of threads, in columns of a fixed width.
 std::pair<std::string, std::string> time_cell(const json& point, const json* speedup) {
   const json& sum = point.at("phases").at("sum_s");
-  const std::string interval =
-      sum["low"].is_null()
-          ? "no interval"
-          : fmt::format("[{:>8}, {:>8}]", ms(number(sum["low"])), ms(number(sum["high"])));
+  const std::string interval = sum["low"].is_null()
+                                   ? "no interval"
+                                   : fmt::format("[{:>8}, {:>8}]", ms(number(sum["low"])), ms(number(sum["high"])));
   const std::string own = speedup ? fixed(speedup->at("speedup"), 2) + "x" : "-";
-  const std::string efficiency =
-      speedup ? fmt::format("{:.0f}%", 100 * number(speedup->at("efficiency"))) : "-";
+  const std::string efficiency = speedup ? fmt::format("{:.0f}%", 100 * number(speedup->at("efficiency"))) : "-";
   const json& pair = point.at("ns_per_pair");
   return {fmt::format("{:>8} {:>20}", ms(number(sum["median"])), interval),
-          fmt::format("{:>8} {:>6} {:>13}", own, efficiency,
-                      pair.is_null() ? "-" : fixed(pair, 3) + " ns")};
+          fmt::format("{:>8} {:>6} {:>13}", own, efficiency, pair.is_null() ? "-" : fixed(pair, 3) + " ns")};
 }
 
 std::string summation_table(const json& summary, std::size_t series) {
@@ -73,8 +70,7 @@ std::string summation_table(const json& summary, std::size_t series) {
     const json& p = entry.at("point");
     const json* own = nullptr;
     for (const json& s : speedups)
-      if (s["backend"] == p["backend"] && s["grid"] == p["grid"] && s["M"] == p["M"] &&
-          s["threads"] == p["threads"])
+      if (s["backend"] == p["backend"] && s["grid"] == p["grid"] && s["M"] == p["M"] && s["threads"] == p["threads"])
         own = &s;
     const std::string name = backend_name(p);
     name_width = std::max(name_width, name.size());
@@ -90,8 +86,7 @@ std::string summation_table(const json& summary, std::size_t series) {
   for (std::size_t first = 0; first < columns.size(); first += fit) {
     const std::size_t last = std::min(columns.size(), first + fit);
     std::vector<std::string> header{"backend", "M"};
-    for (std::size_t c = first; c < last; ++c)
-      header.push_back(fmt::format("threads {}", columns[c]));
+    for (std::size_t c = first; c < last; ++c) header.push_back(fmt::format("threads {}", columns[c]));
     text_table table(header, 2);
     for (const auto& row : rows) {
       std::vector<std::string> above{row.first.first, std::to_string(row.first.second)};
@@ -110,11 +105,10 @@ std::string summation_table(const json& summary, std::size_t series) {
 }
 
 std::string algorithm_table(const json& summary, std::size_t series) {
-  text_table table(
-      {"runtime", "threads", "backend", "time ms", "base", "base ms", "speedup", "[low, high]"}, 3);
+  text_table table({"runtime", "threads", "backend", "time ms", "base", "base ms", "speedup", "[low, high]"}, 3);
   for (const json& e : entries(summary, "algorithm_speedup", series))
-    table.add({e["runtime"], whole(e["threads"]),
-               fmt::format("{} M={}", backend_name(e), e["M"].get<int>()), ms(number(e["time_s"])),
+    table.add({e["runtime"], whole(e["threads"]), fmt::format("{} M={}", backend_name(e), e["M"].get<int>()),
+               ms(number(e["time_s"])),
                fmt::format("{} M={}", e["base_backend"].get<std::string>(), e["base_M"].get<int>()),
                ms(number(e["base_time_s"])), fixed(e["speedup"], 3), bounds(e)});
   if (table.empty()) return "";
@@ -125,9 +119,7 @@ std::string algorithm_table(const json& summary, std::size_t series) {
 }
 
 std::string runtime_table(const json& summary, std::size_t series) {
-  text_table table(
-      {"algorithm", "M", "threads", "OpenMP ms", "TBB ms", "OpenMP/TBB", "[low, high]", "faster"},
-      1);
+  text_table table({"algorithm", "M", "threads", "OpenMP ms", "TBB ms", "OpenMP/TBB", "[low, high]", "faster"}, 1);
   for (const json& e : entries(summary, "runtime_comparison", series)) {
     std::string verdict = e["low"].is_null() ? "-" : "not resolved";
     if (number(e["low"]) > 1) verdict = "TBB";
@@ -143,13 +135,12 @@ std::string runtime_table(const json& summary, std::size_t series) {
 }
 
 std::string m_table(const json& summary, std::size_t series) {
-  text_table table({"backend", "threads", "M", "sum ms", "total ms", "cells", "non-empty",
-                    "pairs tested", "interacting", "useful"},
-                   1);
+  text_table table(
+      {"backend", "threads", "M", "sum ms", "total ms", "cells", "non-empty", "pairs tested", "interacting", "useful"},
+      1);
   for (const json& e : entries(summary, "m_comparison", series))
-    table.add({backend_name(e), whole(e["threads"]), whole(e["M"]), ms(number(e["time_s"])),
-               ms(number(e["total_s"])), whole(e["cells"]), whole(e["cells_nonempty"]),
-               whole(e["pairs_tested"]), whole(e["pairs_interacting"]),
+    table.add({backend_name(e), whole(e["threads"]), whole(e["M"]), ms(number(e["time_s"])), ms(number(e["total_s"])),
+               whole(e["cells"]), whole(e["cells_nonempty"]), whole(e["pairs_tested"]), whole(e["pairs_interacting"]),
                fixed(e["useful_pair_ratio"], 4)});
   return "Comparison over M: median times per step, cells, distance tests and pairs found (useful: "
          "found per test)\n" +
@@ -185,16 +176,15 @@ std::string title(const json& summary, const json& s) {
       "== {}, {}, dx {}: {} fluid and {} boundary particles; study {}, order {}, {}D, {}, {}, {}, "
       "{}, "
       "dt {}, isa {}",
-      s["case"].get<std::string>(), s["state"].get<std::string>(), number(s["dx"]),
-      whole(s["n_fluid"]), whole(s["n_boundary"]), s["study"].get<std::string>(),
-      s["order"].get<std::string>(), whole(s["dim"]), s["precision"].get<std::string>(),
-      s["interaction"].get<std::string>(), s["smoothing"].get<std::string>(),
+      s["case"].get<std::string>(), s["state"].get<std::string>(), number(s["dx"]), whole(s["n_fluid"]),
+      whole(s["n_boundary"]), s["study"].get<std::string>(), s["order"].get<std::string>(), whole(s["dim"]),
+      s["precision"].get<std::string>(), s["interaction"].get<std::string>(), s["smoothing"].get<std::string>(),
       s["integrator"].get<std::string>(), number(s["dt"]), s["isa"].get<std::string>());
   for (const json& e : summary.at("environments"))
     if (e["environment"] == s["environment"]) {
-      text += fmt::format("; host {}, {} cores, {}, git {}{}", e["host"].get<std::string>(),
-                          whole(e["cores"]), e["compiler"].get<std::string>(),
-                          e["git"].get<std::string>(), e["dirty"].get<bool>() ? " (dirty)" : "");
+      text += fmt::format("; host {}, {} cores, {}, git {}{}", e["host"].get<std::string>(), whole(e["cores"]),
+                          e["compiler"].get<std::string>(), e["git"].get<std::string>(),
+                          e["dirty"].get<bool>() ? " (dirty)" : "");
       break;
     }
   return wrapped(text) + "\n";
@@ -205,11 +195,10 @@ std::string failed_points(const json& summary) {
   std::string out = "Failed points: these rows have no passed verification and are in no table\n";
   for (const json& f : summary["failed"]) {
     const json& p = f.at("point");
-    out += wrapped(fmt::format("  {} M={} threads={} ({}, {}, dx {}, study {}): {} rows: {}",
-                               backend_name(p), whole(p["M"]), whole(p["threads"]),
-                               p["case"].get<std::string>(), p["state"].get<std::string>(),
-                               number(p["dx"]), f["study"].get<std::string>(), whole(f["rows"]),
-                               f["error"].get<std::string>()));
+    out += wrapped(fmt::format("  {} M={} threads={} ({}, {}, dx {}, study {}): {} rows: {}", backend_name(p),
+                               whole(p["M"]), whole(p["threads"]), p["case"].get<std::string>(),
+                               p["state"].get<std::string>(), number(p["dx"]), f["study"].get<std::string>(),
+                               whole(f["rows"]), f["error"].get<std::string>()));
   }
   return out + "\n";
 }
@@ -227,9 +216,8 @@ std::string print_tables(const json& summary) {
   std::string out;
   const json& all = summary.at("series");
   for (std::size_t series = 0; series < all.size(); ++series)
-    out += title(summary, all[series]) + summation_table(summary, series) +
-           algorithm_table(summary, series) + runtime_table(summary, series) +
-           m_table(summary, series) + phase_table(summary, series);
+    out += title(summary, all[series]) + summation_table(summary, series) + algorithm_table(summary, series) +
+           runtime_table(summary, series) + m_table(summary, series) + phase_table(summary, series);
   return out + failed_points(summary) + caveat_list(summary);
 }
 

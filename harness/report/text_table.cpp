@@ -7,8 +7,7 @@
 
 namespace pairsum::harness {
 
-text_table::text_table(std::vector<std::string> header, std::size_t left)
-    : header_(std::move(header)), left_(left) {}
+text_table::text_table(std::vector<std::string> header, std::size_t left) : header_(std::move(header)), left_(left) {}
 
 void text_table::add(std::vector<std::string> cells) {
   cells.resize(header_.size());
@@ -25,8 +24,7 @@ std::string text_table::text() const {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (i > 0) line += "  ";
-      line += i < left_ ? fmt::format("{:<{}}", row[i], widths[i])
-                        : fmt::format("{:>{}}", row[i], widths[i]);
+      line += i < left_ ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("{:>{}}", row[i], widths[i]);
     }
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";

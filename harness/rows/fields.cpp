@@ -29,8 +29,7 @@ bool is_utc(std::string_view text) {
 /// Whether the value is an integer >= 0; comparing the JSON value itself would wrap large ones
 /// around.
 bool is_count(const nlohmann::json& value) {
-  return value.is_number_unsigned() ||
-         (value.is_number_integer() && value.get<std::int64_t>() >= 0);
+  return value.is_number_unsigned() || (value.is_number_integer() && value.get<std::int64_t>() >= 0);
 }
 
 }  // namespace
@@ -44,12 +43,10 @@ std::string describe(const nlohmann::json& value) {
   return "the number " + value.dump();
 }
 
-fields::fields(const nlohmann::json& object, std::string prefix)
-    : object_(object), prefix_(std::move(prefix)) {
+fields::fields(const nlohmann::json& object, std::string prefix) : object_(object), prefix_(std::move(prefix)) {
   if (object_.is_object()) return;
   if (prefix_.empty()) throw error("a row should be an object, is " + describe(object_));
-  throw error("key \"" + prefix_.substr(0, prefix_.size() - 1) + "\" should be an object, is " +
-              describe(object_));
+  throw error("key \"" + prefix_.substr(0, prefix_.size() - 1) + "\" should be an object, is " + describe(object_));
 }
 
 const nlohmann::json& fields::at(const char* key) {
@@ -60,8 +57,7 @@ const nlohmann::json& fields::at(const char* key) {
 }
 
 void fields::reject(const char* key, const std::string& expected) const {
-  throw error("key \"" + prefix_ + key + "\" should be " + expected + ", is " +
-              describe(object_.at(key)));
+  throw error("key \"" + prefix_ + key + "\" should be " + expected + ", is " + describe(object_.at(key)));
 }
 
 void fields::finish() const {
@@ -96,9 +92,7 @@ std::optional<double> fields::seconds_or_null(const char* key) {
 std::optional<std::vector<double>> fields::seconds_list_or_null(const char* key) {
   const auto& value = at(key);
   if (value.is_null()) return std::nullopt;
-  const auto seconds = [](const nlohmann::json& v) {
-    return v.is_number() && v.get<double>() >= 0;
-  };
+  const auto seconds = [](const nlohmann::json& v) { return v.is_number() && v.get<double>() >= 0; };
   if (!value.is_array() || !std::all_of(value.begin(), value.end(), seconds))
     reject(key, "an array of numbers >= 0 or null");
   return value.get<std::vector<double>>();
@@ -147,8 +141,7 @@ std::optional<std::string> fields::text_or_null(const char* key) {
 
 std::string fields::hex(const char* key) {
   std::string value = text(key);
-  if (!is_hex(value))
-    throw error("key \"" + prefix_ + key + "\" should be 16 hex digits, is \"" + value + "\"");
+  if (!is_hex(value)) throw error("key \"" + prefix_ + key + "\" should be 16 hex digits, is \"" + value + "\"");
   return value;
 }
 
@@ -160,8 +153,8 @@ std::optional<std::string> fields::hex_or_null(const char* key) {
 std::string fields::utc(const char* key) {
   std::string value = text(key);
   if (!is_utc(value))
-    throw error("key \"" + prefix_ + key +
-                "\" should be a UTC time like 2026-11-22T15:30:00.123Z, is \"" + value + "\"");
+    throw error("key \"" + prefix_ + key + "\" should be a UTC time like 2026-11-22T15:30:00.123Z, is \"" + value +
+                "\"");
   return value;
 }
 

@@ -17,8 +17,7 @@ using nlohmann::json;
 
 std::string read_text(const std::filesystem::path& path) {
   std::error_code code;
-  if (std::filesystem::is_directory(path, code))
-    throw error(path.string() + ": is a folder, should be a rows file");
+  if (std::filesystem::is_directory(path, code)) throw error(path.string() + ": is a folder, should be a rows file");
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
     throw error(path.string() + ": is no regular file, should be a rows file");
   std::ifstream file(path, std::ios::binary);
@@ -51,8 +50,8 @@ class line_parser {
   }
 
   [[noreturn]] void foreign(const std::string& why) const {
-    fail("this is no rows file: its first line should be a JSON object with \"schema\":\"" +
-         std::string(row_schema) + "\", " + why);
+    fail("this is no rows file: its first line should be a JSON object with \"schema\":\"" + std::string(row_schema) +
+         "\", " + why);
   }
 
   /// Returns true if the line was cut and dropped.
@@ -75,8 +74,8 @@ class line_parser {
     if (number_ == 1 && !parsed && !(cut_row(line) && (last || line.size() > 2))) foreign("is not");
     if (looks_cut) {
       if (last_line == cut_line::drop) return rows_.last_line_cut = true;
-      fail("the last line is cut (" + std::string(whole ? why : "no newline at its end") +
-           "); remove it to keep the " + std::to_string(rows_.size()) + " whole rows before it");
+      fail("the last line is cut (" + std::string(whole ? why : "no newline at its end") + "); remove it to keep the " +
+           std::to_string(rows_.size()) + " whole rows before it");
     }
     if (!parsed) fail(why);
     try {
@@ -89,8 +88,7 @@ class line_parser {
 
   /// Whether a line that does not parse can be the beginning of a row, by the keys that come first.
   static bool cut_row(const std::string& line) {
-    for (const std::string begin :
-         {"{\"barrier_wait_s\":", "{\"binding\":", "{\"kind\":", "{\"schema\":"})
+    for (const std::string begin : {"{\"barrier_wait_s\":", "{\"binding\":", "{\"kind\":", "{\"schema\":"})
       if (line.compare(0, begin.size(), begin, 0, line.size()) == 0) return true;
     return false;
   }
@@ -104,8 +102,7 @@ class line_parser {
     } else {
       sample& s = std::get<sample>(r);
       if (known_.count(s.environment) == 0)
-        throw error("key \"environment\" should name an environment row before it, is \"" +
-                    s.environment + "\"");
+        throw error("key \"environment\" should name an environment row before it, is \"" + s.environment + "\"");
       rows_.samples.push_back(std::move(s));
     }
   }

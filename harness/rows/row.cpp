@@ -129,9 +129,7 @@ void to_json(json& j, const work_row& w) {
 }
 
 void to_json(json& j, const verify_row& v) {
-  j = {{"max_rel_err", finite(v.max_rel_err)},
-       {"bound", finite(v.bound)},
-       {"fingerprint", or_null(v.fingerprint)}};
+  j = {{"max_rel_err", finite(v.max_rel_err)}, {"bound", finite(v.bound)}, {"fingerprint", or_null(v.fingerprint)}};
 }
 
 void to_json(json& j, const sample& s) {
@@ -221,8 +219,7 @@ void from_json(const json& j, environment_row& e) {
   e.cpu = from.text("cpu");
   e.caches.clear();
   fields caches = from.nested("caches");
-  for (const auto& item : from.at("caches").items())
-    e.caches[item.key()] = caches.count(item.key().c_str());
+  for (const auto& item : from.at("caches").items()) e.caches[item.key()] = caches.count(item.key().c_str());
   e.cores = from.integer("cores", 1);
   e.governor = from.text_or_null("governor");
   e.os_kernel = from.text("os_kernel");
@@ -230,8 +227,7 @@ void from_json(const json& j, environment_row& e) {
   e.flags = from.text("flags");
   e.libraries.clear();
   fields libraries = from.nested("libraries");
-  for (const auto& item : from.at("libraries").items())
-    e.libraries[item.key()] = libraries.text(item.key().c_str());
+  for (const auto& item : from.at("libraries").items()) e.libraries[item.key()] = libraries.text(item.key().c_str());
   e.git = from.text("git");
   e.dirty = from.boolean("dirty");
   e.binding = from.text("binding");
@@ -261,8 +257,7 @@ row parse_row(const json& j) {
   if (kind == "sample") return j.get<sample>();
   if (kind == "environment") return j.get<environment_row>();
   if (kind == "void") return j.get<void_row>();
-  throw error("key \"kind\" should be \"sample\", \"environment\" or \"void\", is \"" + kind +
-              "\"");
+  throw error("key \"kind\" should be \"sample\", \"environment\" or \"void\", is \"" + kind + "\"");
 }
 
 }  // namespace pairsum::harness

@@ -60,8 +60,8 @@ inline constexpr std::array<phase_member, 7> phase_members{{{"index_s", &phases:
 
 /// Counted work of the initial state; pairs count once each (i < j).
 struct work_row {
-  std::uint64_t cells = 0, cells_nonempty = 0, sumF1 = 0, sumF2 = 0, pairs_tested = 0,
-                pairs_interacting = 0, pairs_fluid_fluid = 0, pairs_fluid_boundary = 0;
+  std::uint64_t cells = 0, cells_nonempty = 0, sumF1 = 0, sumF2 = 0, pairs_tested = 0, pairs_interacting = 0,
+                pairs_fluid_fluid = 0, pairs_fluid_boundary = 0;
   bool operator==(const work_row&) const = default;
 };
 

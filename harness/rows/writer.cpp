@@ -18,8 +18,7 @@ namespace {
 bool has_rows(const std::filesystem::path& path) {
   std::error_code code;
   if (!std::filesystem::exists(path, code)) return false;
-  return !std::filesystem::is_regular_file(path, code) ||
-         std::filesystem::file_size(path, code) > 0;
+  return !std::filesystem::is_regular_file(path, code) || std::filesystem::file_size(path, code) > 0;
 }
 
 [[noreturn]] void cannot_write(const std::filesystem::path& path, const std::string& why) {
@@ -39,8 +38,7 @@ void sync_folder(const std::filesystem::path& folder) {
 row_writer::row_writer(std::filesystem::path path) : path_(std::move(path)) {
   if (path_.filename().empty()) cannot_write(path_, "the path should name a file");
   if (has_rows(path_))
-    for (const environment_row& e : read_rows(path_).environments)
-      environments_.insert(e.environment);
+    for (const environment_row& e : read_rows(path_).environments) environments_.insert(e.environment);
   std::filesystem::path folder = path_.parent_path();
   if (folder.empty()) folder = ".";
   std::error_code code;
@@ -76,8 +74,8 @@ void row_writer::write(const row& value) {
   if (written < 0) cannot_write(path_, std::strerror(errno));
   if (static_cast<std::size_t>(written) < line.size()) {
     const bool undone = ::ftruncate(file_, before.st_size) == 0;
-    cannot_write(path_, undone ? "no space for the row, which was taken back"
-                               : "no space for the row, its last line is cut");
+    cannot_write(path_,
+                 undone ? "no space for the row, which was taken back" : "no space for the row, its last line is cut");
   }
   if (::fsync(file_) != 0) cannot_write(path_, std::strerror(errno));
   if (const auto* e = std::get_if<environment_row>(&value)) environments_.insert(e->environment);

@@ -18,7 +18,9 @@ void progress::show(double done, const std::string& what) {
   const int filled = static_cast<int>(share * width);
   std::string eta = "--:--";
   if (share > 0.01) {
-    const int left = static_cast<int>(elapsed / share - elapsed + 0.5);
+    double seconds = elapsed / share - elapsed;
+    if (budget_s_ > 0) seconds = std::clamp(budget_s_ - elapsed, 0.0, seconds);
+    const int left = static_cast<int>(seconds + 0.5);
     eta = fmt::format("{}:{:02}", left / 60, left % 60);
   }
   fmt::print(stderr, "\r\x1b[K[{}{}] {:3.0f} %  ETA {}  {}", std::string(filled, '#'), std::string(width - filled, '.'),

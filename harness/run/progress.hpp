@@ -5,12 +5,13 @@
 
 namespace pairsum::harness {
 
-/// A line on stderr that says how far a run is and when it will be done. Silent unless stderr is a terminal, and in the first two
-/// seconds.
+/// A line on stderr that says how far a run is and when it will be done. Silent unless stderr is a terminal, and in the
+/// first two seconds.
 class progress {
  public:
   /// `total`: units of work (seconds or points, as long as done() uses the same).
-  explicit progress(double total) : total_(total) {}
+  /// `budget_s`: seconds after which the work ends in any case; 0: none.
+  explicit progress(double total, double budget_s = 0) : total_(total), budget_s_(budget_s) {}
   ~progress() { clear(); }
 
   /// `done` units are finished; `what` is under way.
@@ -19,7 +20,7 @@ class progress {
   void clear();
 
  private:
-  double total_;
+  double total_, budget_s_;
   bool shown_ = false;
   stopwatch since_start_;
 };

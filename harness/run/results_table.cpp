@@ -45,11 +45,11 @@ double median_ms(const collected& c, std::optional<double> phases::*phase) {
 }  // namespace
 
 std::string results_table(const std::vector<sample>& samples) {
-  std::string text = fmt::format("{:<16}{:>10}{:>11}{:>4}{:>4}{:>5}{:>10}{:>10}{:>10}{:>10}{:>9}\n", "backend", "dx", "state", "M",
-                                 "thr", "rep", "index ms", "prep ms", "sum ms", "total ms", "ns/pair");
+  std::string text = fmt::format("{:<16}{:>10}{:>11}{:>4}{:>4}{:>5}{:>10}{:>10}{:>10}{:>10}{:>9}\n", "backend", "dx",
+                                 "state", "M", "thr", "rep", "index ms", "prep ms", "sum ms", "total ms", "ns/pair");
   for (const collected& c : by_point(samples)) {
-    text += fmt::format("{:<16}{:>10}{:>11}{:>4}{:>4}{:>5}", c.what.backend, c.what.dx, c.what.state, c.what.M, c.what.threads,
-                        c.repetitions.size());
+    text += fmt::format("{:<16}{:>10}{:>11}{:>4}{:>4}{:>5}", c.what.backend, c.what.dx, c.what.state, c.what.M,
+                        c.what.threads, c.repetitions.size());
     if (!c.error.empty()) {
       text += "  FAILED: " + c.error + "\n";
       continue;

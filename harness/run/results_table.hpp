@@ -6,8 +6,8 @@
 
 namespace pairsum::harness {
 
-/// The table at the end of a run: per point the medians over repetitions of the mean step, the cost per interacting pair, and how it
-/// was verified. `failed` are error rows.
+/// The table at the end of a run: per point the medians over repetitions of the mean step, and the cost of the sum per
+/// interacting pair; of a point that failed its verification, why.
 std::string results_table(const std::vector<sample>& samples);
 
 }  // namespace pairsum::harness

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
 #include <cstdio>
 #include <memory>
 
@@ -10,6 +9,7 @@
 #include "harness/environment/machine.hpp"
 #include "harness/measure/memory.hpp"
 #include "harness/rows/writer.hpp"
+#include "harness/run/interrupt.hpp"
 #include "harness/run/progress.hpp"
 #include "harness/run/results_table.hpp"
 #include "harness/run/world.hpp"
@@ -17,43 +17,45 @@
 namespace pairsum::harness {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
-void on_interrupt(int) { interrupted = 1; }
-
 std::string label(const point& p) {
   return fmt::format("{} dx={} {} M={} threads={}", p.backend, p.dx, p.state, p.M, p.threads);
 }
 
 /// One invocation: a round of the rows file.
-class session {
+class round_run {
  public:
-  session(const registry& all, const run_request& r, const std::filesystem::path& out)
-      : registry_(all), request_(r), round_(last_round(out) + 1), writer_(out), environment_(describe_environment(r.study)) {
-    writer_.write(environment_);
-    for (const world_plan& w : expand(r, all)) plans_.push_back({w, nullptr});
+  round_run(const registry& all, const run_request& r, const std::filesystem::path& out)
+      : registry_(all), request_(r), round_(last_round(out) + 1), environment_(describe_environment(r.study)) {
+    for (const world_plan& w : expand(r, all))
+      plans_.push_back({w, std::make_unique<world>(registry_, request_, w.dx, w.state)});
+    writer_ = std::make_unique<row_writer>(out);  // last, so that bad input leaves no file behind
+    writer_->write(environment_);
     std::size_t points = 0;
     for (const auto& p : plans_) points += p.plan.points.size();
-    progress_ = std::make_unique<progress>(static_cast<double>(points) * (request_.repetitions + warm_up_cost));
+    progress_ = std::make_unique<progress>(static_cast<double>(points) * (request_.repetitions + warm_up_cost),
+                                           request_.budget_s);
   }
 
   int run() {
     for (auto& p : plans_) prepare(p);
     const double warm_up_s = since_start_.seconds();
-    for (int repetition = 1; repetition <= request_.repetitions && !interrupted; ++repetition) {
+    for (int repetition = 1; repetition <= request_.repetitions && !interrupted(); ++repetition) {
       stopwatch one;
       for (auto& p : plans_) measure(p, repetition);
       last_repetition_s_ = one.seconds();
       if (request_.budget_s > 0 && since_start_.seconds() + last_repetition_s_ > request_.budget_s &&
           repetition < request_.repetitions) {
         progress_->clear();
-        fmt::print("budget of {:.0f} s: {} of {} repetitions made (warm-up and verification {:.0f} s, a repetition {:.0f} s)\n",
-                   request_.budget_s, repetition, request_.repetitions, warm_up_s, last_repetition_s_);
+        fmt::print(
+            "budget of {:.0f} s: {} of {} repetitions made (warm-up and verification {:.0f} s, a repetition {:.0f} "
+            "s)\n",
+            request_.budget_s, repetition, request_.repetitions, warm_up_s, last_repetition_s_);
         break;
       }
     }
     progress_->clear();
     fmt::print("{}", results_table(samples_));
-    if (interrupted) return 130;
+    if (interrupted()) return 130;
     return failed_ ? 1 : 0;
   }
 
@@ -63,6 +65,7 @@ class session {
   struct planned {
     world_plan plan;
     std::unique_ptr<world> made;
+    bool ready = false;
   };
 
   void advance(double units, const std::string& what) {
@@ -72,17 +75,20 @@ class session {
 
   /// Makes the world and warms every point up, verified; points that fail are reported and not measured.
   void prepare(planned& p) {
-    if (interrupted) return;
+    if (interrupted()) return;
     progress_->show(done_, fmt::format("reference for dx={} {}", p.plan.dx, p.plan.state));
-    p.made = std::make_unique<world>(registry_, request_, p.plan.dx, p.plan.state);
+    p.made->make_reference();
+    p.ready = true;
     if (p.made->dropped() > 0)
-      note(fmt::format("{} particles outside Omega were dropped (dx={} {})", p.made->dropped(), p.plan.dx, p.plan.state));
+      note(fmt::format("{} particles outside Omega were dropped (dx={} {})", p.made->dropped(), p.plan.dx,
+                       p.plan.state));
     std::vector<point> good;
     for (point& q : p.plan.points) {
-      if (interrupted) return;
+      if (interrupted()) return;
       p.made->complete(q);
       progress_->show(done_, "warm-up " + label(q));
       const world::result r = p.made->measure(q);
+      if (r.interrupted) return;
       if (r.error.empty())
         good.push_back(q);
       else
@@ -94,16 +100,16 @@ class session {
   }
 
   void measure(planned& p, int repetition) {
-    if (!p.made) return;
+    if (!p.ready) return;
     const auto order = shuffled_order(p.plan.points.size(), request_.seed, repetition);
-    for (std::size_t slot = 0; slot < order.size() && !interrupted; ++slot) {
+    for (std::size_t slot = 0; slot < order.size() && !interrupted(); ++slot) {
       const point& q = p.plan.points[order[slot]];
       const world::result r = p.made->measure(q);
+      if (r.interrupted) return;
       if (!r.error.empty()) {
         write_failure(q, r.error);
       } else {
-        for (std::size_t k = 0; k < r.steps.size(); ++k)
-          write_step(q, r, k, static_cast<int>(slot) + 1, repetition);
+        for (std::size_t k = 0; k < r.steps.size(); ++k) write_step(q, r, k, static_cast<int>(slot) + 1, repetition);
       }
       advance(1, label(q));
     }
@@ -142,7 +148,7 @@ class session {
   }
 
   void keep(const sample& s) {
-    writer_.write(s);
+    writer_->write(s);
     samples_.push_back(s);
   }
 
@@ -155,7 +161,7 @@ class session {
   const registry& registry_;
   run_request request_;
   int round_;
-  row_writer writer_;
+  std::unique_ptr<row_writer> writer_;
   environment_row environment_;
   std::vector<planned> plans_;
   std::vector<sample> samples_;
@@ -175,11 +181,8 @@ std::filesystem::path default_rows_path(const std::filesystem::path& results, co
 int run(const run_request& r, const std::filesystem::path& out, const registry& all) {
   check_request(r, all);
   keep_freed_memory();
-  struct sigaction action {};
-  action.sa_handler = on_interrupt;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  session s(all, r, out);
+  note_interrupts();
+  round_run s(all, r, out);
   const int cores = usable_cores();
   for (const int t : r.threads)
     if (t > cores) fmt::print("note: {} threads on {} cores\n", t, cores);

@@ -6,6 +6,7 @@
 #include "harness/measure/memory.hpp"
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
+#include "harness/run/interrupt.hpp"
 #include "integrators/integrator.hpp"
 #include "sum/check.hpp"
 
@@ -15,14 +16,20 @@ world::world(const registry& all, const run_request& r, double dx, const std::st
     : registry_(all), request_(r) {
   initial_ = make_case(r.case_name, {r.dim, dx, r.H, state, r.seed});
   if (r.outside == "drop") dropped_ = drop_outside(initial_.particles, initial_.omega_low, initial_.omega_high);
-  point any;
-  any.backend = r.backends.front();
-  any.M = r.M.front();
-  const setup s = setup_for(any);
-  check_input(initial_.particles, s);
+  check_input(initial_.particles, any_setup());
   order_ = memory_order(r.order, initial_, r.seed);
+}
+
+void world::make_reference() {
   const worker_team workers(runtime::omp, usable_cores());
-  verifier_ = std::make_unique<verifier>(registry_, s, initial_.particles, workers.get());
+  verifier_ = std::make_unique<verifier>(registry_, any_setup(), initial_.particles, workers.get());
+}
+
+setup world::any_setup() const {
+  point any;
+  any.backend = request_.backends.front();
+  any.M = request_.M.front();
+  return setup_for(any);
 }
 
 setup world::setup_for(const point& p) const {
@@ -50,8 +57,14 @@ work_row world::work_of(const point& p, summation& s) {
   const auto [at, is_new] = work_.try_emplace({p.backend, p.M});
   if (is_new) {
     const work_counts w = s.count_work();
-    at->second = {w.cells,        w.cells_nonempty,      w.sumF1,             w.sumF2,
-                  w.pairs_tested, w.pairs_interacting(), w.pairs_fluid_fluid, w.pairs_fluid_boundary};
+    at->second = {w.cells,
+                  w.cells_nonempty,
+                  w.sumF1,
+                  w.sumF2,
+                  w.pairs_tested,
+                  w.pairs_interacting(),
+                  w.pairs_fluid_fluid,
+                  w.pairs_fluid_boundary};
   }
   return at->second;
 }
@@ -65,6 +78,10 @@ world::result world::measure(const point& p) {
   reset_peak_rss();
   summation->load(initial_.particles, order_);
   for (int step = 1; step <= request_.steps && out.error.empty(); ++step) {
+    if (interrupted()) {
+      out.interrupted = true;
+      break;
+    }
     step_result now;
     phases& times = now.times;
     double checking = 0;
@@ -88,7 +105,8 @@ world::result world::measure(const point& p) {
     stopwatch whole;
     integrator.step(*summation, request_.dt, initial_.gravity, evaluate, t);
     times.total_s = whole.lap() - checking;
-    times.integrate_s = *times.total_s - *times.index_s - *times.prepare_s - *times.zero_s - *times.sum_s - *times.reduce_s;
+    times.integrate_s =
+        *times.total_s - *times.index_s - *times.prepare_s - *times.zero_s - *times.sum_s - *times.reduce_s;
     if (!now.checked.ok) out.error = fmt::format("step {}: {}", step, now.checked.error);
     out.steps.push_back(std::move(now));
   }

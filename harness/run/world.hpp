@@ -19,8 +19,11 @@ struct step_result {
 /// The particles of one (dx, state), made once, and the measurement of any backend on them.
 class world {
  public:
-  /// Makes the case and the reference. `dropped` particles lay outside Omega and were left out (--outside drop).
+  /// Makes and checks the particles. `dropped()` of them lay outside Omega and were left out (--outside drop).
   world(const registry& all, const run_request& r, double dx, const std::string& state);
+
+  /// Computes the reference; to be called before the first measure().
+  void make_reference();
 
   /// Fills in what depends on the case: H and particle numbers.
   void complete(point& p) const;
@@ -29,18 +32,20 @@ class world {
     std::vector<step_result> steps;
     std::optional<work_row> work;  ///< of the initial state
     std::optional<std::uint64_t> peak_rss_bytes;
-    std::size_t lost = 0;  ///< particles that left Omega during the steps
-    std::string error;     ///< set if a step was wrong; steps after it were not made
+    std::size_t lost = 0;      ///< particles that left Omega during the steps
+    bool interrupted = false;  ///< the steps after an interrupt were not made
+    std::string error;         ///< set if a step was wrong; steps after it were not made
   };
 
-  /// Loads the initial state and makes the steps. Each step's rates are verified before its times are handed out; a step's verification is
-  /// not part of its times.
+  /// Loads the initial state and makes the steps. Each step's rates are verified before its times are handed out; a
+  /// step's verification is not part of its times.
   result measure(const point& p);
 
   std::size_t dropped() const { return dropped_; }
 
  private:
   setup setup_for(const point& p) const;
+  setup any_setup() const;
   work_row work_of(const point& p, summation& s);
 
   const registry& registry_;

@@ -44,8 +44,7 @@ inline std::optional<median_ranks> ranks_of_median(std::size_t n, double level =
 
 /// Distribution-free interval for the median of the distribution the values were drawn from.
 /// Empty if there are too few values for the level. Throws like order_statistics.
-inline std::optional<interval> median_interval(std::span<const double> values,
-                                               double level = 0.95) {
+inline std::optional<interval> median_interval(std::span<const double> values, double level = 0.95) {
   const std::vector<double> sorted = order_statistics(values);
   const std::optional<median_ranks> ranks = ranks_of_median(sorted.size(), level);
   if (!ranks) return std::nullopt;

@@ -27,8 +27,8 @@ struct ratio_estimate {
 /// spans that are empty or of different length and for values that are not positive and finite.
 inline ratio_estimate paired_ratio(std::span<const double> base, std::span<const double> other) {
   if (base.size() != other.size())
-    throw error("a paired ratio needs as many base values as others, there are " +
-                std::to_string(base.size()) + " and " + std::to_string(other.size()));
+    throw error("a paired ratio needs as many base values as others, there are " + std::to_string(base.size()) +
+                " and " + std::to_string(other.size()));
   std::vector<double> logs;
   for (std::size_t i = 0; i < base.size(); ++i) {
     if (!(base[i] > 0 && other[i] > 0)) throw error("a ratio needs positive values");
@@ -63,8 +63,7 @@ class speedup {
   /// @param base what the ratio's base values are, with their median time [s]
   /// @param ratio base time over own time
   /// Throws pairsum::error if the base has no name or no positive time.
-  speedup(speedup_base base, ratio_estimate ratio)
-      : base_(std::move(base)), ratio_(std::move(ratio)) {
+  speedup(speedup_base base, ratio_estimate ratio) : base_(std::move(base)), ratio_(std::move(ratio)) {
     if (base_.name.empty() || !(base_.time_s > 0))
       throw error("a speedup needs a base with a name and a positive time");
   }

@@ -21,11 +21,10 @@ verdict compare(const rate_table& rates, const expectation& expected) {
       const std::uint32_t id = expected.ids[k];
       const double rate = rates.columns[c][id], value = expected.value[c][k], bound = expected.bound[c][k];
       const double distance = std::abs(rate - value);
-      const bool within = distance <= bound;
+      const bool within = distance <= bound && std::isfinite(bound);
       failures += !within;
-      const double share = within ? (bound > 0 ? distance / bound : 0) : std::isfinite(distance) && bound > 0
-                               ? distance / bound
-                               : std::numeric_limits<double>::infinity();
+      double share = bound > 0 ? distance / bound : 0;
+      if (!within && !(share > 1 && std::isfinite(share))) share = std::numeric_limits<double>::infinity();
       if (share <= worst) continue;
       worst = share;
       const double magnitude = expected.magnitude[c][k];
@@ -33,13 +32,13 @@ verdict compare(const rate_table& rates, const expectation& expected) {
       v.bound = magnitude > 0 ? bound / magnitude : bound;
       if (!within) {
         v.ok = false;
-        v.error = fmt::format("{} of particle {} is {:.17g}, the reference says {:.17g} +- {:.3g}",
-                              expected.names[c], id, rate, value, bound);
+        v.error = fmt::format("{} of particle {} is {:.17g}, the reference says {:.17g} +- {:.3g}", expected.names[c],
+                              id, rate, value, bound);
       }
     }
   if (!v.ok)
-    v.error += fmt::format(" ({} of {} rates are out of bounds)", failures,
-                           expected.names.size() * expected.ids.size());
+    v.error +=
+        fmt::format(" ({} of {} rates are out of bounds)", failures, expected.names.size() * expected.ids.size());
   return v;
 }
 

@@ -2,7 +2,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "harness/verify/compare.hpp"
@@ -10,20 +9,22 @@
 
 namespace pairsum::harness {
 
-/// Verifies the rates of any backend on the trajectory that starts from one initial state. The reference of that state is computed
-/// once (by brute force up to `brute_force_limit` particles, else by the reference's cell search, which is itself checked
-/// by brute force on 1000 sampled particles) and kept. Later steps are checked on 64 sampled particles of the state as it is.
-/// Rates that are bit-identical to rates verified before, at the same step, need no second look.
+/// Verifies the rates of any backend on the trajectory that starts from one initial state. The reference of that state
+/// is computed once (by brute force up to `brute_force_limit` particles, else by the reference's cell search, which is
+/// itself checked by brute force on 1000 sampled particles) and kept. Later steps are checked by brute force on the
+/// state as it is: all of its particles up to that limit, 256 sampled ones beyond. Rates that are bit-identical to
+/// rates verified before, at the same step, get the verdict those got.
 class verifier {
  public:
-  static constexpr std::size_t brute_force_limit = 20000;
+  static constexpr std::size_t brute_force_limit = 20000, later_samples = 256;
 
   /// `initial`: the particles that load() gets. Throws pairsum::error if the reference contradicts itself.
   verifier(const registry& r, const setup& s, particle_table initial, const team& t);
 
   struct outcome {
     bool ok = true;
-    std::optional<double> max_rel_err, bound;  ///< empty if the rates were known
+    double max_rel_err = 0, bound = 0;  ///< of the entry nearest to its bound
+    bool known = false;                 ///< recognised by its bits
     std::uint64_t fingerprint = 0;
     std::string error;
   };
@@ -36,10 +37,12 @@ class verifier {
  private:
   expectation sampled(const particle_table& p, std::size_t n, std::uint64_t seed, const team& t) const;
 
+  expectation expect_now(const particle_table& p, int step, const team& t) const;
+
   std::unique_ptr<reference> reference_;
   particle_table initial_;
   expectation expected_;
-  std::set<std::pair<int, std::uint64_t>> known_;
+  std::map<std::pair<int, std::uint64_t>, verdict> known_;
 };
 
 }  // namespace pairsum::harness

@@ -26,7 +26,7 @@ verify_line check_one(const registry& r, const initial_condition& c, const setup
   const verifier::outcome o = oracle.check(*summation, 1, workers.get());
   line.ok = o.ok;
   line.error = o.error;
-  if (o.bound && *o.bound > 0) line.share = *o.max_rel_err / *o.bound;
+  if (o.bound > 0) line.share = o.max_rel_err / o.bound;
   const std::string counts = compare_counts(summation->count_work(), oracle.initial_expectation());
   if (line.ok && !counts.empty()) line.error = counts;
   const auto [known, is_new] = bits.emplace(fmt::format("{} {}", s.backend, s.M), o.fingerprint);

@@ -24,9 +24,9 @@ struct verify_line {
   std::string error;  ///< empty if ok
 };
 
-/// Sums the case with every backend x M x threads (serial backends once) for every interaction, compares with the reference, compares
-/// the counted pairs with the reference's, and demands equal bits over thread counts where the backend claims them. Reports each line
-/// as it is made; returns whether all are fine.
+/// Sums the case with every backend x M x threads (serial backends once) for every interaction, compares with the
+/// reference, compares the counted pairs with the reference's, and demands equal bits over thread counts where the
+/// backend claims them. Reports each line as it is made; returns whether all are fine.
 bool verify_all(const registry& r, const initial_condition& c, const verify_plan& plan,
                 const std::function<void(const verify_line&)>& report);
 

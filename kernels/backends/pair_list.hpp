@@ -44,8 +44,7 @@ struct pair_list {
           row[i].fluid = partner.size();
           const auto n = candidate_filter<I>::each_in_reach(p, x_i, p.reach2, fluid, append);
           row[i].boundary = partner.size();
-          const auto m =
-              candidate_filter<I>::each_in_reach(p, x_i, p.boundary_reach2, boundary, append);
+          const auto m = candidate_filter<I>::each_in_reach(p, x_i, p.boundary_reach2, boundary, append);
           if constexpr (Probe::counting) {
             probe.tested(candidate_filter<I>::size(fluid) + candidate_filter<I>::size(boundary));
             probe.fluid_pairs(n);
@@ -72,7 +71,7 @@ struct pair_list {
         for (std::size_t k = row[i].boundary; k < row[i + 1].fluid; ++k) {
           const std::uint32_t b = partner[k];
           const vec<I::dim, typename I::real> r = x_i - p.position(b);
-          add(u_i, p.formula->boundary(r, norm2<I::dim, real>(r), a, p.boundary.load(b)));
+          add(u_i, p.formula->boundary(r, norm2<I::dim, real>(r), a, p.boundary_particle(b)));
         }
         p.u.add(i, u_i);
       }

@@ -4,7 +4,8 @@
 //   (-1,1) (0,1) (1,1)          for each cell I:
 //          ( I ) (1,0)            sumF1(I);  for each forward neighbour J:  sumF2(I, J)       3D: 13 forward neighbours
 //
-// Complete, each pair once; not thread-safe as it stands: patterns of neighbouring cells overlap. Race-free here: one thread.
+// Complete, each pair once; not thread-safe as it stands: patterns of neighbouring cells overlap. Race-free here: one
+// thread.
 #include "sum/backend.hpp"
 #include "sum/half_stencil.hpp"
 

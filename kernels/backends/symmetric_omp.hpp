@@ -6,9 +6,10 @@
 //       sumF1(B)
 //       for j, k in {0,1}^d, k < j, j*k = 0:  sumF2(B+j, B+k)
 //
-// Race-free: a block touches its 2^d cells B + {0,1}^d alone. Base cells of a pass have equal parity o, so on a grid of even side
-// (2^M, the torus included) two blocks of a pass share no cell; passes are separated by barriers. For the same reason the
-// order in which a particle's rate is added to does not depend on the threads: the result is bit-identical.
+// Race-free: a block touches its 2^d cells B + {0,1}^d alone. Base cells of a pass have equal parity o, so on a grid of
+// even side (2^M, the torus included) two blocks of a pass share no cell; passes are separated by barriers. For the
+// same reason the order in which a particle's rate is added to does not depend on the threads: the result is
+// bit-identical.
 #include "sum/backend.hpp"
 #include "sum/block.hpp"
 

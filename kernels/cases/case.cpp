@@ -33,8 +33,7 @@ initial_condition make_case(std::string_view name, const case_parameters& c) {
     if (e.name != name) continue;
     check_length("dx", c.dx);
     if (c.H != 0) check_length("H", c.H);
-    if (std::ranges::find(case_states, c.state) == case_states.end())
-      throw unknown_name("state", c.state, case_states);
+    if (std::ranges::find(case_states, c.state) == case_states.end()) throw unknown_name("state", c.state, case_states);
     initial_condition made = e.make(c);
     if (made.H == 0) made.H = c.H != 0 ? c.H : 2 * c.dx;
     if (c.state == "perturbed") perturb(made, c.dx, c.seed);
@@ -58,8 +57,7 @@ void perturb(initial_condition& c, double dx, std::uint64_t seed) {
   }
 }
 
-std::vector<std::uint32_t> memory_order(std::string_view name, const initial_condition& c,
-                                        std::uint64_t seed) {
+std::vector<std::uint32_t> memory_order(std::string_view name, const initial_condition& c, std::uint64_t seed) {
   const particle_table& p = c.particles;
   std::vector<std::uint32_t> order(p.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -72,7 +70,7 @@ std::vector<std::uint32_t> memory_order(std::string_view name, const initial_con
     for (std::size_t i = 0; i < key.size(); ++i) {
       std::array<std::uint64_t, 3> cell{};
       for (int d = 0; d < p.dim; ++d)
-        cell[d] = static_cast<std::uint64_t>(std::max(0.0, (p.x[d][i] - c.omega_low[d]) / c.H));
+        cell[d] = static_cast<std::uint64_t>(std::clamp((p.x[d][i] - c.omega_low[d]) / c.H, 0.0, 2097151.0));
       key[i] = morton_key(cell);
     }
   } else {

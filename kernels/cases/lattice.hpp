@@ -3,20 +3,24 @@
 
 #include "cases/case.hpp"
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "core/names.hpp"
 
 namespace pairsum {
 
-/// Fluid at rest on a cubic lattice that fills the unit cube: round(1/dx)^dim particles at the centres of cells of width
-/// 1/round(1/dx); no boundary. The perturbed state is the jittered lattice that SPH codes are usually timed on.
+/// Fluid at rest on a cubic lattice that fills the unit cube: round(1/dx)^dim particles at the centres of cells of
+/// width 1/round(1/dx); no boundary. The perturbed state is the jittered lattice that SPH codes are usually timed on.
 struct lattice {
   static constexpr std::string_view name = "lattice";
-  static constexpr std::string_view description = "fluid on a cubic lattice in the unit cube, no boundary; 1D, 2D and 3D";
+  static constexpr std::string_view description =
+      "fluid on a cubic lattice in the unit cube, no boundary; 1D, 2D and 3D";
 
   static initial_condition make(const case_parameters& c) {
     if (c.dim < 1 || c.dim > 3) throw error("lattice exists in 1D, 2D and 3D, not in " + std::to_string(c.dim) + "D");
     if (!(c.dx <= 1)) throw error("lattice needs dx <= 1 m, is " + number_text(c.dx));
     const double per_axis = std::round(1 / c.dx);
+    check_memory(std::pow(per_axis, c.dim) * bytes_per_particle, "lattice with dx = " + number_text(c.dx),
+                 "a larger dx takes less");
     if (std::pow(per_axis, c.dim) > 4e9)
       throw error("lattice with dx = " + number_text(c.dx) + " has more than 2^32 particles");
     const auto n = static_cast<std::size_t>(per_axis);
@@ -31,8 +35,7 @@ struct lattice {
     const double m = made.eos.rho0 / static_cast<double>(total);
     for (std::size_t i = 0; i < total; ++i) {
       std::size_t rest = i;
-      for (int d = 0; d < c.dim; ++d, rest /= n)
-        p.x[d][i] = (static_cast<double>(rest % n) + 0.5) / per_axis;
+      for (int d = 0; d < c.dim; ++d, rest /= n) p.x[d][i] = (static_cast<double>(rest % n) + 0.5) / per_axis;
       p.rho[i] = made.eos.rho0;
       p.m[i] = m;
       p.kind[i] = particle_kind::fluid;

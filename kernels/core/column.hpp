@@ -8,8 +8,8 @@
 
 namespace pairsum {
 
-/// Allocates on 64-byte boundaries and leaves trivial elements uninitialised, so that memory is first touched by the thread
-/// that fills it.
+/// Allocates on 64-byte boundaries and leaves trivial elements uninitialised, so that memory is first touched by the
+/// thread that fills it.
 template <class T>
 struct column_allocator {
   using value_type = T;
@@ -19,10 +19,8 @@ struct column_allocator {
   template <class U>
   column_allocator(const column_allocator<U>&) {}
 
-  T* allocate(std::size_t n) {
-    return static_cast<T*>(::operator new (n * sizeof(T), alignment));
-  }
-  void deallocate(T* p, std::size_t) { ::operator delete (p, alignment); }
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
 
   template <class U>
   void construct(U* p) {

@@ -7,9 +7,9 @@
 #include "core/column.hpp"
 #include "core/vec.hpp"
 
-/// Structs of a few named quantities (what a particle brings to a pair, what a pair gives back) kept as one column per scalar.
-/// Such a struct lists its fields once, in `static constexpr auto fields()`: a tuple of member pointers; a field is a scalar or a
-/// vec. Columns, loads, stores and sums are derived from that at compile time.
+/// Structs of a few named quantities (what a particle brings to a pair, what a pair gives back) kept as one column per
+/// scalar. Such a struct lists its fields once, in `static constexpr auto fields()`: a tuple of member pointers; a
+/// field is a scalar or a vec. Columns, loads, stores and sums are derived from that at compile time.
 namespace pairsum {
 
 namespace fields_detail {
@@ -39,16 +39,13 @@ struct member<F S::*> {
 template <class S, class F>
 [[gnu::always_inline]] inline void each_member(F&& f) {
   constexpr auto list = S::fields();
-  [&]<std::size_t... K>(std::index_sequence<K...>) {
-    (f(std::get<K>(list)), ...);
-  }(std::make_index_sequence<std::tuple_size_v<decltype(list)>>{});
+  [&]<std::size_t... K>(std::index_sequence<K...>) { (f(std::get<K>(list)), ...); }
+  (std::make_index_sequence<std::tuple_size_v<decltype(list)>>{});
 }
 
 template <class S>
 constexpr int count() {
-  return []<class... P>(std::tuple<P...>) {
-    return (member<P>::type::width + ... + 0);
-  }(S::fields());
+  return []<class... P>(std::tuple<P...>) { return (member<P>::type::width + ... + 0); }(S::fields());
 }
 
 }  // namespace fields_detail
@@ -71,17 +68,15 @@ template <class S, class F>
 template <class S>
 [[gnu::always_inline]] inline S zero() {
   S s;
-  each_scalar(s, [](auto& a, int) __attribute__((always_inline)) {
-    a = std::remove_reference_t<decltype(a)>(0);
-  });
+  each_scalar(
+      s, [](auto& a, int) __attribute__((always_inline)) { a = std::remove_reference_t<decltype(a)>(0); });
   return s;
 }
 
 /// a += b, field by field.
 template <class S>
 [[gnu::always_inline]] inline void add(S& a, const S& b) {
-  fields_detail::each_member<S>(
-      [&](auto p) __attribute__((always_inline)) { a.*p += b.*p; });
+  fields_detail::each_member<S>([&](auto p) __attribute__((always_inline)) { a.*p += b.*p; });
 }
 
 /// Where the columns of S begin; element i of every column together is the struct of particle i.
@@ -95,31 +90,20 @@ struct field_pointers {
   }
   [[gnu::always_inline]] S load(std::size_t i) const {
     S s;
-    each_scalar(s, [&](auto& a, int slot) __attribute__((always_inline)) {
-      a = column_as<std::remove_reference_t<decltype(a)>>(slot)[i];
-    });
+    each_scalar(
+        s, [&](auto& a, int slot)
+               __attribute__((always_inline)) { a = column_as<std::remove_reference_t<decltype(a)>>(slot)[i]; });
     return s;
   }
   [[gnu::always_inline]] void store(std::size_t i, const S& s) const {
-    each_scalar(s, [&](const auto& a, int slot) __attribute__((always_inline)) {
-      column_as<std::remove_cvref_t<decltype(a)>>(slot)[i] = a;
-    });
+    each_scalar(
+        s, [&](const auto& a, int slot)
+               __attribute__((always_inline)) { column_as<std::remove_cvref_t<decltype(a)>>(slot)[i] = a; });
   }
   [[gnu::always_inline]] void add(std::size_t i, const S& s) const {
-    each_scalar(s, [&](const auto& a, int slot) __attribute__((always_inline)) {
-      column_as<std::remove_cvref_t<decltype(a)>>(slot)[i] += a;
-    });
-  }
-  /// Pointers for which index `origin` means the first element.
-  field_pointers starting_at(std::size_t origin) const {
-    field_pointers shifted = *this;
-    int slot = 0;
-    fields_detail::each_member<S>([&](auto p) {
-      using field = typename fields_detail::member<decltype(p)>::type;
-      for (int d = 0; d < field::width; ++d, ++slot)
-        shifted.begin[slot] = static_cast<typename field::scalar*>(shifted.begin[slot]) - origin;
-    });
-    return shifted;
+    each_scalar(
+        s, [&](const auto& a, int slot)
+               __attribute__((always_inline)) { column_as<std::remove_cvref_t<decltype(a)>>(slot)[i] += a; });
   }
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <charconv>
 #include <string>
 #include <string_view>
@@ -28,6 +29,12 @@ std::string join(const Names& names) {
 template <class Names>
 error unknown_name(std::string_view what, std::string_view word, const Names& valid) {
   return error("unknown " + std::string(what) + " \"" + std::string(word) + "\"; valid: " + join(valid));
+}
+
+/// Throws unknown_name unless `word` is one of `valid`.
+template <class Names>
+void check_word(std::string_view what, std::string_view word, const Names& valid) {
+  if (std::ranges::find(valid, word) == std::ranges::end(valid)) throw unknown_name(what, word, valid);
 }
 
 }  // namespace pairsum

@@ -8,8 +8,8 @@
 
 namespace pairsum {
 
-/// The arena a team of oneTBB threads works in; made by the caller, who decides how many threads it has. While it lives, oneTBB
-/// may have as many threads, even if the machine has fewer cores.
+/// The arena a team of oneTBB threads works in; made by the caller, who decides how many threads it has. While it
+/// lives, oneTBB may have as many threads, even if the machine has fewer cores.
 struct tbb_arena {
   explicit tbb_arena(int threads)
       : limit(::tbb::global_control::max_allowed_parallelism,

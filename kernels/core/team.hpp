@@ -19,11 +19,10 @@ constexpr std::string_view name_of(runtime r) {
 class index_function {
  public:
   template <class F>
-    requires(!std::is_same_v<std::remove_cvref_t<F>, index_function>)
-  index_function(F&& f)  // NOLINT: implicit on purpose
-      : object_(const_cast<void*>(static_cast<const void*>(&f))), call_([](void* o, std::size_t i) {
-          (*static_cast<std::remove_reference_t<F>*>(o))(i);
-        }) {}
+  requires(!std::is_same_v<std::remove_cvref_t<F>, index_function>)
+      index_function(F&& f)  // NOLINT: implicit on purpose
+      : object_(const_cast<void*>(static_cast<const void*>(&f))),
+        call_([](void* o, std::size_t i) { (*static_cast<std::remove_reference_t<F>*>(o))(i); }) {}
   void operator()(std::size_t i) const { call_(object_, i); }
 
  private:
@@ -31,16 +30,8 @@ class index_function {
   void (*call_)(void*, std::size_t);
 };
 
-/// Called by a backend at the begin and the end of each of its passes; the library itself looks at no clock.
-class pass_probe {
- public:
-  virtual ~pass_probe() = default;
-  virtual void begin(int pass, int thread) = 0;
-  virtual void end(int pass, int thread) = 0;
-};
-
-/// The threads a call may use, handed in by the caller: a number for OpenMP (`num_threads`), an arena for oneTBB. The library
-/// never starts threads of its own accord.
+/// The threads a call may use, handed in by the caller: a number for OpenMP (`num_threads`), an arena for oneTBB. The
+/// library never starts threads of its own accord.
 class team {
  public:
   /// One thread, the caller's.
@@ -48,20 +39,17 @@ class team {
   /// `threads` OpenMP threads.
   static team omp(int threads) { return team(runtime::omp, threads, nullptr); }
   /// The arena's threads; `threads` is its concurrency. The arena must outlive the team.
-  static team tbb(int threads, tbb_arena& arena) {
-    return team(runtime::tbb, threads, &arena);
-  }
+  static team tbb(int threads, tbb_arena& arena) { return team(runtime::tbb, threads, &arena); }
 
   runtime kind() const { return kind_; }
   int threads() const { return threads_; }
   tbb_arena& arena() const { return *arena_; }
 
-  pass_probe* probe = nullptr;  ///< may be null
-
   /// Calls f(0) .. f(n-1), each once, on the team's threads; returns when all are done.
   void for_each(std::size_t n, index_function f) const;
 
-  /// Cuts [0, n) into one contiguous piece per thread and calls f(begin, end, piece) for each, pieces in ascending order of index.
+  /// Cuts [0, n) into one contiguous piece per thread and calls f(begin, end, piece) for each, pieces in ascending
+  /// order of index.
   template <class F>
   void for_pieces(std::size_t n, F&& f) const {
     const std::size_t pieces = static_cast<std::size_t>(threads_);
@@ -69,8 +57,7 @@ class team {
   }
 
  private:
-  team(runtime kind, int threads, tbb_arena* arena)
-      : kind_(kind), threads_(threads), arena_(arena) {}
+  team(runtime kind, int threads, tbb_arena* arena) : kind_(kind), threads_(threads), arena_(arena) {}
 
   runtime kind_ = runtime::serial;
   int threads_ = 1;

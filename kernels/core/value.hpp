@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <type_traits>
 
-/// The few operations that formulas use beyond + - * /, for scalars. A vector of lanes or a value that carries an error bound
-/// brings overloads of the same names, found by argument-dependent lookup, so that one formula source serves them all.
+/// The few operations that formulas use beyond + - * /, for scalars. A vector of lanes or a value that carries an error
+/// bound brings overloads of the same names, found by argument-dependent lookup, so that one formula source serves them
+/// all.
 namespace pairsum {
 
 template <class T>
@@ -31,7 +32,8 @@ constexpr T absolute(T a) {
   return a < T(0) ? -a : a;
 }
 
-/// a*b + c, rounded once where the hardware does so at full speed and twice elsewhere; never left to the compiler's mood.
+/// a*b + c, rounded once where the hardware does so at full speed and twice elsewhere; never left to the compiler's
+/// mood.
 inline double fused(double a, double b, double c) {
 #ifdef __FP_FAST_FMA
   return __builtin_fma(a, b, c);

@@ -14,8 +14,9 @@ using vec = Eigen::Matrix<T, D, 1, Eigen::DontAlign>;
 template <int D>
 using ivec = std::array<std::int64_t, D>;
 
-/// r.r in one fixed order of roundings. Every distance test of the library and of its references is this expression, in the
-/// working precision, so that a pair near r = H is in or out for everybody alike; it is symmetric to the last bit in r -> -r.
+/// r.r in one fixed order of roundings. Every distance test of the library and of its references is this expression, in
+/// the working precision, so that a pair near r = H is in or out for everybody alike; it is symmetric to the last bit
+/// in r -> -r.
 template <int D, class T>
 inline T norm2(const vec<D, T>& r) {
   T sum = r[D - 1] * r[D - 1];

@@ -5,8 +5,8 @@
 
 namespace pairsum {
 
-/// A large array of 32-bit zeros of which only the pages that are written take memory. Throws pairsum::error, before anything is
-/// allocated, if the array is larger than the machine's memory.
+/// A large array of 32-bit zeros of which only the pages that are written take memory. Throws pairsum::error, before
+/// anything is allocated, if the array is larger than the machine's memory.
 class zero_table {
  public:
   zero_table() = default;

@@ -17,8 +17,8 @@ struct cell_range {
 
 /// What a grid tells the backends, as plain data, whatever the grid: only non-empty cells exist.
 ///
-/// Cell 0 is the empty cell that stands for every cell without particles. Cells 1..fluid_cells hold fluid (and perhaps boundary),
-/// the remaining ones boundary alone: they never open a loop, and so cost nothing.
+/// Cell 0 is the empty cell that stands for every cell without particles. Cells 1..fluid_cells hold fluid (and perhaps
+/// boundary), the remaining ones boundary alone: they never open a loop, and so cost nothing.
 template <int D>
 struct cells {
   static constexpr unsigned stencil = pattern::stencil_cells<D>;
@@ -31,9 +31,7 @@ struct cells {
 
   std::size_t nonempty() const { return range.size() - 1; }
   const std::uint32_t* neighbours_of(std::size_t c) const { return neighbours.data() + c * stencil; }
-  std::uint32_t neighbour(std::size_t c, unsigned code) const {
-    return neighbours[c * stencil + code];
-  }
+  std::uint32_t neighbour(std::size_t c, unsigned code) const { return neighbours[c * stencil + code]; }
 };
 
 }  // namespace pairsum

@@ -25,8 +25,7 @@ void counting_sort::sort(std::span<const std::uint32_t> keys, int bits, const te
   });
 }
 
-void counting_sort::pass(const item* from, item* to, std::size_t n, int shift, int bits,
-                         const team& t) {
+void counting_sort::pass(const item* from, item* to, std::size_t n, int shift, int bits, const team& t) {
   const std::size_t buckets = std::size_t{1} << bits, pieces = static_cast<std::size_t>(t.threads());
   const std::uint32_t mask = static_cast<std::uint32_t>(buckets - 1);
   counts_.assign(buckets * pieces, 0);
@@ -34,7 +33,8 @@ void counting_sort::pass(const item* from, item* to, std::size_t n, int shift, i
     std::uint32_t* const count = counts_.data() + piece * buckets;
     for (std::size_t k = begin; k < end; ++k) ++count[from[k].key >> shift & mask];
   });
-  // Where each piece writes each bucket: buckets ascending, and inside a bucket the pieces in order, which keeps it stable.
+  // Where each piece writes each bucket: buckets ascending, and inside a bucket the pieces in order, which keeps it
+  // stable.
   std::uint32_t position = 0;
   for (std::size_t bucket = 0; bucket < buckets; ++bucket)
     for (std::size_t piece = 0; piece < pieces; ++piece)

@@ -8,7 +8,8 @@
 namespace pairsum {
 
 /// Stable counting sort of keys, digit by digit (least significant first) so that the counters stay in cache however
-/// many cells there are. Parallel over the team; the result is the same for every team: the order of equal keys is kept.
+/// many cells there are. Parallel over the team; the result is the same for every team: the order of equal keys is
+/// kept.
 class counting_sort {
  public:
   /// Sorts indices [0, keys.size()) by keys < 2^bits. Afterwards `order()[k]` is the index of the k-th smallest key.

@@ -8,8 +8,8 @@
 
 namespace pairsum {
 
-/// What a grid has to say: the key of a particle's cell, and which cells are neighbours. Everything else (sorting, ranges) is
-/// the indexer's; a grid is asked once per step, so its virtual calls cost nothing.
+/// What a grid has to say: the key of a particle's cell, and which cells are neighbours. Everything else (sorting,
+/// ranges) is the indexer's; a grid is asked once per step, so its virtual calls cost nothing.
 template <int D, class R>
 class grid {
  public:
@@ -19,7 +19,8 @@ class grid {
   virtual std::size_t total_cells() const = 0;
   /// Keys are below 2^key_bits() <= 2^30.
   virtual int key_bits() const = 0;
-  /// Writes the cell key of particles begin..end, all of which lie in Omega or have left it (then the key does not matter).
+  /// Writes the cell key of particles begin..end, all of which lie in Omega or have left it (then the key does not
+  /// matter).
   virtual void keys(const particle_set<D, R>& p, std::size_t begin, std::size_t end,
                     std::span<std::uint32_t> out) const = 0;
   /// Fills `neighbours` and `colour` for the fluid cells; cell_keys[c] is the key of cell c (entry 0 is unused).

@@ -8,9 +8,10 @@
 namespace pairsum {
 namespace {
 
-/// Smallest safe width. Computed coordinates t = (x-A)*(1/w) carry a relative error of at most 3u (subtraction, reciprocal,
-/// product; u = half the machine epsilon), so two of them differ from the exact difference by at most 6u t_max; a computed
-/// r < H means an exact distance below H (1 + 4u) per component. Hence w >= H (1 + 4u + 6u t_max), doubled for safety.
+/// Smallest safe width. Computed coordinates t = (x-A)*(1/w) carry a relative error of at most 3u (subtraction,
+/// reciprocal, product; u = half the machine epsilon), so two of them differ from the exact difference by at most 6u
+/// t_max; a computed r < H means an exact distance below H (1 + 4u) per component. Hence w >= H (1 + 4u + 6u t_max),
+/// doubled for safety.
 template <int D, class R>
 R safe_width(const box<D, R>& omega, R H) {
   const R u = std::numeric_limits<R>::epsilon() / 2;
@@ -19,22 +20,21 @@ R safe_width(const box<D, R>& omega, R H) {
   return H * (1 + 8 * u + 12 * u * t_max);
 }
 
-/// M, if it is one this dimension can have.
-int check_M(int D, int M) {
+}  // namespace
+
+int check_hash_size(int D, int M) {
   if (M >= 2 && M <= 30 / D) return M;
-  const std::string range = "M must be between 2 and " + std::to_string(30 / D) + " in " +
-                            std::to_string(D) + "D, is " + std::to_string(M);
+  const std::string range =
+      "M must be between 2 and " + std::to_string(30 / D) + " in " + std::to_string(D) + "D, is " + std::to_string(M);
   throw error(M == 1 ? range + " (with M = 1 the neighbours -1 and +1 are one cell)" : range);
 }
-
-}  // namespace
 
 template <int D, class R>
 hashed_grid<D, R>::hashed_grid(const box<D, R>& omega, R H, int M)
     : low_(omega.low),
       w_(safe_width(omega, H)),
       inv_w_(1 / w_),
-      M_(check_M(D, M)),
+      M_(check_hash_size(D, M)),
       table_(std::size_t{1} << (D * M_), "the hashed grid") {}
 
 template <int D, class R>
@@ -61,8 +61,7 @@ void hashed_grid<D, R>::mark(std::span<const std::uint32_t> cell_keys, bool pres
 }
 
 template <int D, class R>
-void hashed_grid<D, R>::connect(std::span<const std::uint32_t> cell_keys, cells<D>& c,
-                                const team& t) {
+void hashed_grid<D, R>::connect(std::span<const std::uint32_t> cell_keys, cells<D>& c, const team& t) {
   mark(known_, false, t);
   known_.assign(cell_keys.begin(), cell_keys.end());
   mark(known_, true, t);

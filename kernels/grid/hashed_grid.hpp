@@ -7,8 +7,11 @@
 
 namespace pairsum {
 
-/// The talk's hashed grid: cell I = floor((x-A)/w) per component, folded to I mod 2^M, a torus of 2^(dM) cells. Particles of
-/// cells that fold together share a cell; the distance test tells them apart.
+/// M, if dimension D (at least 1) can have it: 2 <= M and D M <= 30; else an error that says so.
+int check_hash_size(int D, int M);
+
+/// The talk's hashed grid: cell I = floor((x-A)/w) per component, folded to I mod 2^M, a torus of 2^(dM) cells.
+/// Particles of cells that fold together share a cell; the distance test tells them apart.
 template <int D, class R>
 class hashed_grid final : public grid<D, R> {
  public:
@@ -23,8 +26,8 @@ class hashed_grid final : public grid<D, R> {
             std::span<std::uint32_t> out) const override;
   void connect(std::span<const std::uint32_t> cell_keys, cells<D>& c, const team& t) override;
 
-  /// Width w >= H of a cell: so much wider than H that two particles that pass the test r < H are never two cells apart,
-  /// whatever the rounding of (x-A)/w.
+  /// Width w >= H of a cell: so much wider than H that two particles that pass the test r < H are never two cells
+  /// apart, whatever the rounding of (x-A)/w.
   R cell_width() const { return w_; }
 
  private:

@@ -25,8 +25,7 @@ void indexer<D, R>::make_keys(particle_set<D, R>& p, const team& t) {
     grid_->keys(p, begin, end, keys_);
     for (std::size_t i = begin; i < end; ++i) {
       bool inside = true;
-      for (int d = 0; d < D; ++d)
-        inside = inside && p.x[d][i] >= omega_.low[d] && p.x[d][i] <= omega_.high[d];
+      for (int d = 0; d < D; ++d) inside = inside && p.x[d][i] >= omega_.low[d] && p.x[d][i] <= omega_.high[d];
       if (!inside && p.kind[i] != particle_kind::lost) {
         p.kind[i] = particle_kind::lost;
         ++count.lost;
@@ -47,7 +46,8 @@ void indexer<D, R>::make_keys(particle_set<D, R>& p, const team& t) {
   }
 }
 
-/// Boundary particles do not move, so after the first build [fluid_, size) is in order and only the fluid is sorted again.
+/// Boundary particles do not move, so after the first build [fluid_, size) is in order and only the fluid is sorted
+/// again.
 template <int D, class R>
 void indexer<D, R>::sort(particle_set<D, R>& p, const team& t) {
   const auto ascending = [&](std::size_t begin, std::size_t end) {
@@ -73,8 +73,7 @@ void indexer<D, R>::sort(particle_set<D, R>& p, const team& t) {
 
 /// Indices in [begin, end) at which a new key starts.
 template <int D, class R>
-std::vector<std::uint32_t> indexer<D, R>::starts(std::size_t begin, std::size_t end,
-                                                 const team& t) const {
+std::vector<std::uint32_t> indexer<D, R>::starts(std::size_t begin, std::size_t end, const team& t) const {
   const auto is_start = [&](std::size_t k) { return k == begin || keys_[k - 1] != keys_[k]; };
   std::vector<std::size_t> offset(static_cast<std::size_t>(t.threads()) + 1, 0);
   t.for_pieces(end - begin, [&](std::size_t b, std::size_t e, std::size_t piece) {

@@ -8,8 +8,9 @@
 
 namespace pairsum {
 
-/// Sorts particles by (kind, cell) in place and describes the cells: fluid before boundary before lost, each by ascending cell
-/// key, so that a cell's fluid and a cell's boundary are contiguous, and so are those of cells with consecutive keys.
+/// Sorts particles by (kind, cell) in place and describes the cells: fluid before boundary before lost, each by
+/// ascending cell key, so that a cell's fluid and a cell's boundary are contiguous, and so are those of cells with
+/// consecutive keys.
 template <int D, class R>
 class indexer {
  public:

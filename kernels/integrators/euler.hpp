@@ -11,7 +11,8 @@ struct euler {
 
   static void step(summation& s, double dt, double gravity, const std::function<void()>& evaluate, const team& t) {
     evaluate();
-    with_state(s, [&]<int D, class R>(state<D, R>& st) { advance(st, static_cast<R>(dt), static_cast<R>(gravity), t); });
+    with_state(s,
+               [&]<int D, class R>(state<D, R>& st) { advance(st, static_cast<R>(dt), static_cast<R>(gravity), t); });
   }
 
  private:

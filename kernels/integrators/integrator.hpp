@@ -8,8 +8,8 @@
 
 namespace pairsum {
 
-/// One time step of dt (s) under gravity (m/s2, along -y, in 1D along -x). `evaluate` runs F for the current state: the caller's, who may
-/// time its phases. Interactions without drho and dv are evaluated and nothing moves.
+/// One time step of dt (s) under gravity (m/s2, along -y, in 1D along -x). `evaluate` runs F for the current state: the
+/// caller's, who may time its phases. Interactions without drho and dv are evaluated and nothing moves.
 using step_function = void (*)(summation& s, double dt, double gravity, const std::function<void()>& evaluate,
                                const team& t);
 

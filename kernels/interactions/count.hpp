@@ -3,8 +3,8 @@
 
 namespace pairsum {
 
-/// Counts neighbours and sums their ids, in 64-bit integers whatever the precision: exact, so it shows that each pair was summed
-/// exactly once.
+/// Counts neighbours and sums their ids, in 64-bit integers whatever the precision: exact, so it shows that each pair
+/// was summed exactly once.
 template <int D, class R>
 class count {
  public:
@@ -38,8 +38,7 @@ class count {
     return {s.id};
   }
   template <class T>
-  contributions<rates<T>> pair(const vec<D, T>&, const T&, const particle<T>& i,
-                               const particle<T>& j) const {
+  contributions<rates<T>> pair(const vec<D, T>&, const T&, const particle<T>& i, const particle<T>& j) const {
     return {{1, j.id}, {1, i.id}};
   }
   template <class T>

@@ -3,14 +3,16 @@
 
 namespace pairsum {
 
-/// "Almost symmetric" weakly compressible SPH with a Rusanov flux on the density (Ferrari, Dumbser, Toro, Armanini, Computers &
-/// Fluids 38 (2009) 1203). With r = x_i - x_j, v_ij = v_i - v_j, F = W'(r)/r, c_ij = max(c_i, c_j):
+/// "Almost symmetric" weakly compressible SPH with a Rusanov flux on the density (Ferrari, Dumbser, Toro, Armanini,
+/// Computers & Fluids 38 (2009) 1203). With r = x_i - x_j, v_ij = v_i - v_j, F = W'(r)/r, c_ij = max(c_i, c_j):
 ///
-///   drho_i/dt += m_j [ F v_ij.r - c_ij F r (rho_j - rho_i)/rho_j ]     drho_j/dt += m_i [ F v_ij.r - c_ij F r (rho_i - rho_j)/rho_i ]
-///   a = (p_i/rho_i^2 + p_j/rho_j^2) F r_vec                            dv_i/dt -= m_j a,   dv_j/dt += m_i a
+///   drho_i/dt += m_j [ F v_ij.r - c_ij F r (rho_j - rho_i)/rho_j ]     drho_j/dt += m_i [ F v_ij.r - c_ij F r (rho_i -
+///   rho_j)/rho_i ] a = (p_i/rho_i^2 + p_j/rho_j^2) F r_vec                            dv_i/dt -= m_j a,   dv_j/dt +=
+///   m_i a
 ///
-/// Boundary by local point symmetry: boundary particle b mirrors fluid particle i into a ghost at 2 x_b - x_i with velocity
-/// 2 v_b - v_i and i's own density, pressure and mass. The ghost is 2 (x_i - x_b) away, so b acts for |x_i - x_b| < H/2.
+/// Boundary by local point symmetry: boundary particle b mirrors fluid particle i into a ghost at 2 x_b - x_i with
+/// velocity 2 v_b - v_i and i's own density, pressure and mass. The ghost is 2 (x_i - x_b) away, so b acts for |x_i -
+/// x_b| < H/2.
 template <int D, class R, template <int, class> class Smoothing>
 class ferrari09 {
  public:
@@ -25,8 +27,8 @@ class ferrari09 {
     vec<D, T> v;
     T m, rho, inv_rho, p_rho2, c;  ///< p_rho2 = p/rho^2, c: sound speed
     static constexpr auto fields() {
-      return std::make_tuple(&particle::v, &particle::m, &particle::rho, &particle::inv_rho,
-                             &particle::p_rho2, &particle::c);
+      return std::make_tuple(&particle::v, &particle::m, &particle::rho, &particle::inv_rho, &particle::p_rho2,
+                             &particle::c);
     }
   };
   template <class T>
@@ -47,8 +49,7 @@ class ferrari09 {
   template <class T>
   particle<T> derive(const particle_state<D, T>& s) const {
     const T inv_rho = T(1) / s.rho;
-    return {s.v, s.m, s.rho, inv_rho, eos_.pressure(s.rho) * (inv_rho * inv_rho),
-            eos_.sound_speed(s.rho)};
+    return {s.v, s.m, s.rho, inv_rho, eos_.pressure(s.rho) * (inv_rho * inv_rho), eos_.sound_speed(s.rho)};
   }
   template <class T>
   boundary_particle<T> derive_boundary(const particle_state<D, T>& s) const {
@@ -56,8 +57,7 @@ class ferrari09 {
   }
 
   template <class T>
-  contributions<rates<T>> pair(const vec<D, T>& r, const T& r2, const particle<T>& i,
-                               const particle<T>& j) const {
+  contributions<rates<T>> pair(const vec<D, T>& r, const T& r2, const particle<T>& i, const particle<T>& j) const {
     const T distance = square_root(r2);
     const T F = W_.slope_over_r(distance);
     const vec<D, T> v = i.v - j.v;
@@ -65,13 +65,11 @@ class ferrari09 {
     const T flux = maximum(i.c, j.c) * (F * distance) * (j.rho - i.rho);
     const T a = (i.p_rho2 + j.p_rho2) * F;
     const T a_i = j.m * a, a_j = i.m * a;
-    return {{j.m * (divergence - flux * j.inv_rho), -(a_i * r)},
-            {i.m * (divergence + flux * i.inv_rho), a_j * r}};
+    return {{j.m * (divergence - flux * j.inv_rho), -(a_i * r)}, {i.m * (divergence + flux * i.inv_rho), a_j * r}};
   }
 
   template <class T>
-  rates<T> boundary(const vec<D, T>& r, const T& r2, const particle<T>& i,
-                    const boundary_particle<T>& b) const {
+  rates<T> boundary(const vec<D, T>& r, const T& r2, const particle<T>& i, const boundary_particle<T>& b) const {
     const T F = W_.slope_over_r(T(2) * square_root(r2));
     const vec<D, T> v = i.v - b.v;
     // ghost: r -> 2r, v_ij -> 2v, rho_j = rho_i, so the flux vanishes

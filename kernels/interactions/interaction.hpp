@@ -33,7 +33,8 @@ struct contributions {
 ///   particle<T>            what a fluid particle brings to a pair, derived once per summation by derive()
 ///   boundary_particle<T>   the same for a boundary particle, by derive_boundary()
 ///   rates<T>               what is summed
-///   pair(r, r2, i, j)      both contributions of a fluid pair; r = x_i - x_j, r2 = r.r < H^2; a backend that wants one side takes
+///   pair(r, r2, i, j)      both contributions of a fluid pair; r = x_i - x_j, r2 = r.r < H^2; a backend that wants one
+///   side takes
 ///                          .to_i and the compiler drops the rest
 ///   boundary(r, r2, i, b)  what boundary particle b adds to fluid particle i, for r2 < (boundary_reach H)^2
 template <class I>

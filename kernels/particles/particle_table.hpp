@@ -7,8 +7,8 @@
 
 namespace pairsum {
 
-/// Particles of any dimension in double precision: what cases make, files hold and references read. Rows are in id order: the
-/// particle with id k is row k, fluid first, then boundary. Units as in particle_set.
+/// Particles of any dimension in double precision: what cases make, files hold and references read. Rows are in id
+/// order: the particle with id k is row k, fluid first, then boundary. Units as in particle_set.
 struct particle_table {
   int dim = 3;
   std::vector<std::vector<double>> x, v;  ///< dim columns each
@@ -31,11 +31,10 @@ struct particle_table {
   }
 };
 
-/// Copies a table into a set of the working precision, in the given order of memory: element k of the set is the particle with
-/// id `order[k]`; an empty order means id order.
+/// Copies a table into a set of the working precision, in the given order of memory: element k of the set is the
+/// particle with id `order[k]`; an empty order means id order.
 template <int D, class R>
-void fill(particle_set<D, R>& p, const particle_table& table,
-          const std::vector<std::uint32_t>& order = {}) {
+void fill(particle_set<D, R>& p, const particle_table& table, const std::vector<std::uint32_t>& order = {}) {
   const std::size_t n = order.empty() ? table.size() : order.size();
   p.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
@@ -51,8 +50,8 @@ void fill(particle_set<D, R>& p, const particle_table& table,
   }
 }
 
-/// The set's particles as a table of `rows` rows in id order; a float becomes the double of the same value. Ids the set does not
-/// hold are `lost`.
+/// The set's particles as a table of `rows` rows in id order; a float becomes the double of the same value. Ids the set
+/// does not hold are `lost`.
 template <int D, class R>
 particle_table to_table(const particle_set<D, R>& p, std::size_t rows) {
   particle_table table(D);

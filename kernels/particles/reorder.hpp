@@ -6,13 +6,12 @@
 
 namespace pairsum {
 
-/// Applies a permutation to columns: element k of the range becomes what was at `source[k]` (absolute indices). Keeps its
-/// scratch memory from call to call.
+/// Applies a permutation to columns: element k of the range becomes what was at `source[k]` (absolute indices). Keeps
+/// its scratch memory from call to call.
 class reorderer {
  public:
   template <class T>
-  void apply(column<T>& c, std::size_t first, std::span<const std::uint32_t> source,
-             const team& t) {
+  void apply(column<T>& c, std::size_t first, std::span<const std::uint32_t> source, const team& t) {
     scratch_.resize(source.size() * sizeof(T));
     T* const to = reinterpret_cast<T*>(scratch_.data());
     t.for_pieces(source.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -24,8 +23,7 @@ class reorderer {
   }
 
   template <int D, class R>
-  void apply(particle_set<D, R>& p, std::size_t first, std::span<const std::uint32_t> source,
-             const team& t) {
+  void apply(particle_set<D, R>& p, std::size_t first, std::span<const std::uint32_t> source, const team& t) {
     p.each_column([&](auto& c) { apply(c, first, source, t); });
   }
 

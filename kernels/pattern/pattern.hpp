@@ -3,7 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The talk's pattern for any dimension d, at compile time. An offset in {0,1}^d is written as a code: bit k is component k.
+/// The talk's pattern for any dimension d, at compile time. An offset in {0,1}^d is written as a code: bit k is
+/// component k.
 namespace pairsum::pattern {
 
 /// 2^d: cells of a base block, and passes.
@@ -12,7 +13,8 @@ inline constexpr unsigned block_cells = 1u << D;
 
 constexpr std::size_t power_of_3(int d) { return d == 0 ? 1 : 3 * power_of_3(d - 1); }
 
-/// a(d): calls to sumF1 and sumF2 per base cell (OEIS A007051), b(d): calls to sumF2 (A003462), t(d): loop tests with k < j.
+/// a(d): calls to sumF1 and sumF2 per base cell (OEIS A007051), b(d): calls to sumF2 (A003462), t(d): loop tests with k
+/// < j.
 constexpr std::size_t a(int d) { return d == 0 ? 1 : 3 * a(d - 1) - 1; }
 constexpr std::size_t b(int d) { return (power_of_3(d) - 1) / 2; }
 constexpr std::size_t t(int d) { return ((std::size_t{1} << d) * ((std::size_t{1} << d) - 1)) / 2; }
@@ -61,7 +63,8 @@ constexpr std::array<int, D> neighbour_offset(unsigned code) {
   return o;
 }
 
-/// 3^d: the cell itself and its neighbours; the cell itself has the middle code, and codes above it form a half stencil.
+/// 3^d: the cell itself and its neighbours; the cell itself has the middle code, and codes above it form a half
+/// stencil.
 template <int D>
 inline constexpr unsigned stencil_cells = static_cast<unsigned>(power_of_3(D));
 template <int D>
@@ -80,12 +83,11 @@ template <int D>
 constexpr bool counts_hold() {
   return block_pairs<D>.size() == b(D) && a(D) == b(D) + 1 && count_tests<D>() == t(D);
 }
-static_assert(counts_hold<0>() && counts_hold<1>() && counts_hold<2>() && counts_hold<3>() &&
-              counts_hold<4>());
-static_assert(a(0) == 1 && a(1) == 2 && a(2) == 5 && a(3) == 14 && a(4) == 41 && a(5) == 122 &&
-              a(6) == 365 && a(7) == 1094);
-static_assert(b(0) == 0 && b(1) == 1 && b(2) == 4 && b(3) == 13 && b(4) == 40 && b(5) == 121 &&
-              b(6) == 364 && b(7) == 1093);
+static_assert(counts_hold<0>() && counts_hold<1>() && counts_hold<2>() && counts_hold<3>() && counts_hold<4>());
+static_assert(a(0) == 1 && a(1) == 2 && a(2) == 5 && a(3) == 14 && a(4) == 41 && a(5) == 122 && a(6) == 365 &&
+              a(7) == 1094);
+static_assert(b(0) == 0 && b(1) == 1 && b(2) == 4 && b(3) == 13 && b(4) == 40 && b(5) == 121 && b(6) == 364 &&
+              b(7) == 1093);
 static_assert(t(0) == 0 && t(1) == 1 && t(2) == 6 && t(3) == 28 && t(4) == 120);
 }  // namespace checks
 

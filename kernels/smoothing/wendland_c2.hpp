@@ -6,8 +6,8 @@
 
 namespace pairsum {
 
-/// Wendland's C2 function with support radius H (the talk's "quintic" in 2D and 3D; H. Wendland, Adv. Comput. Math. 4 (1995) 389,
-/// normalised as in Dehnen & Aly, MNRAS 425 (2012) 1068, table 1). With q = r/H in [0,1):
+/// Wendland's C2 function with support radius H (the talk's "quintic" in 2D and 3D; H. Wendland, Adv. Comput. Math. 4
+/// (1995) 389, normalised as in Dehnen & Aly, MNRAS 425 (2012) 1068, table 1). With q = r/H in [0,1):
 ///   1D: W = 5/(4 H) (1-q)^3 (3q+1),   2D: 7/(pi H^2) (1-q)^4 (4q+1),   3D: 21/(2 pi H^3) (1-q)^4 (4q+1)
 template <int D, class R>
 class wendland_c2 {
@@ -19,9 +19,7 @@ class wendland_c2 {
   /// H: support radius in m, positive.
   explicit wendland_c2(double H) : inv_H_(R(1 / H)) {
     constexpr double pi = std::numbers::pi;
-    const double alpha = D == 1   ? 5 / (4 * H)
-                         : D == 2 ? 7 / (pi * H * H)
-                                  : 21 / (2 * pi * H * H * H);
+    const double alpha = D == 1 ? 5 / (4 * H) : D == 2 ? 7 / (pi * H * H) : 21 / (2 * pi * H * H * H);
     alpha_ = R(alpha);
     slope_ = R((D == 1 ? -12 : -20) * alpha / (H * H));
   }

@@ -23,8 +23,7 @@ struct backend_traits {
 ///   prepare(problem, team, probe)   refreshes its own buffers, lists, colours (timed apart)
 ///   sum(problem, team, probe)       computes; it does not time, print, allocate its output or know the formula
 template <class B, class I>
-concept backend = requires(typename B::template workspace<I> w, const problem<I>& p, const team& t,
-                           no_probe& probe) {
+concept backend = requires(typename B::template workspace<I> w, const problem<I>& p, const team& t, no_probe& probe) {
   { B::traits } -> std::convertible_to<backend_traits>;
   w.prepare(p, t, probe);
   w.sum(p, t, probe);

@@ -19,8 +19,7 @@ template <int D>
 constexpr auto make_earlier() {
   std::array<std::uint32_t, pattern::block_cells<D>> mask{};
   for (unsigned own = 0; own < pattern::block_cells<D>; ++own)
-    for (unsigned other = 0; other < own; ++other)
-      mask[own] |= std::uint32_t{1} << pattern::step_code<D>(own, other);
+    for (unsigned other = 0; other < own; ++other) mask[own] |= std::uint32_t{1} << pattern::step_code<D>(own, other);
   return mask;
 }
 template <int D>
@@ -28,11 +27,13 @@ inline constexpr auto earlier = make_earlier<D>();
 
 }  // namespace block_detail
 
-/// Every base block that holds fluid, once. Blocks are found from the cells with fluid, not by walking the grid, so empty
-/// cells cost nothing: each block is listed by the first of its cells that has fluid. `colour` is the parity o of B: blocks of a colour
-/// share no cell. Calls emit(colour, block) for the blocks of fluid cells [begin, end), in ascending order.
+/// Every base block that holds fluid, once. Blocks are found from the cells with fluid, not by walking the grid, so
+/// empty cells cost nothing: each block is listed by the first of its cells that has fluid. `colour` is the parity o of
+/// B: blocks of a colour share no cell. Calls emit(colour, block) for the blocks of fluid cells [begin, end), in
+/// ascending order.
 template <int D, class Emit>
 void each_block(const cells<D>& c, std::size_t begin, std::size_t end, Emit&& emit) {
+  static_assert(D <= 3, "the neighbours of a cell are kept as bits of a 32-bit word");
   for (std::size_t cell = begin; cell < end; ++cell) {
     const std::uint32_t* const around = c.neighbours_of(cell);
     std::uint32_t has_fluid = 0;
@@ -41,15 +42,14 @@ void each_block(const cells<D>& c, std::size_t begin, std::size_t end, Emit&& em
     for (unsigned own = 0; own < pattern::block_cells<D>; ++own) {
       if (has_fluid & block_detail::earlier<D>[own]) continue;
       block<D> members;
-      for (unsigned o = 0; o < pattern::block_cells<D>; ++o)
-        members[o] = around[pattern::step_code<D>(own, o)];
+      for (unsigned o = 0; o < pattern::block_cells<D>; ++o) members[o] = around[pattern::step_code<D>(own, o)];
       emit(c.colour[cell] ^ own, members);
     }
   }
 }
 
-/// sumF1(B) and the sumF2 of the pattern, as b(d)+1 cell pairs grouped by their lower cell: particle i of cell j meets all later cells
-/// k with j & k == 0 in one go. Touches fluid particles of the block's cells and no others.
+/// sumF1(B) and the sumF2 of the pattern, as b(d)+1 cell pairs grouped by their lower cell: particle i of cell j meets
+/// all later cells k with j & k == 0 in one go. Touches fluid particles of the block's cells and no others.
 template <class I, class Probe>
 PAIRSUM_SAME_CODE void sum_block(const problem<I>& p, const block<I::dim>& members, Probe& probe) {
   constexpr unsigned n = pattern::block_cells<I::dim>;
@@ -63,6 +63,10 @@ PAIRSUM_SAME_CODE void sum_block(const problem<I>& p, const block<I::dim>& membe
       const cell_range& other = range[members[k]];
       if (k > j) fluid.add(other.fluid_begin, other.fluid_end);
       boundary.add(other.boundary_begin, other.boundary_end);
+      if constexpr (Probe::counting) {  // a later cell, or an earlier one without fluid, which opens no pairs itself
+        probe.sumF1(k == 0 && j == 0);
+        probe.sumF2(k != j && members[k] != 0 && (k > j || other.fluid() == 0));
+      }
     }
     if (j == 0) {  // inside the base cell: the pairs with a later particle of its own
       const auto later = fluid;
@@ -73,16 +77,8 @@ PAIRSUM_SAME_CODE void sum_block(const problem<I>& p, const block<I::dim>& membe
         scatter_one(p, i, all, boundary, probe);
       }
     } else if (!fluid.empty() || !boundary.empty()) {
-      for (std::uint32_t i = own.fluid_begin; i < own.fluid_end; ++i)
-        scatter_one(p, i, fluid, boundary, probe);
+      for (std::uint32_t i = own.fluid_begin; i < own.fluid_end; ++i) scatter_one(p, i, fluid, boundary, probe);
     }
-  }
-  if constexpr (Probe::counting) {
-    const auto filled = [&](unsigned k) { return members[k] != 0; };
-    const auto fluid = [&](unsigned k) { return range[members[k]].fluid() != 0; };
-    probe.sumF1(fluid(0));
-    for (const auto& pair : pattern::block_pairs<I::dim>)
-      probe.sumF2(filled(pair.j) && filled(pair.k) && (fluid(pair.j) || fluid(pair.k)));
   }
 }
 
@@ -97,9 +93,8 @@ class coloured_blocks {
     const std::size_t pieces = static_cast<std::size_t>(t.threads());
     std::vector<std::array<std::size_t, colours>> next(pieces + 1);
     const auto in_pieces = [&](auto&& visit) {
-      t.for_pieces(c.fluid_cells, [&](std::size_t begin, std::size_t end, std::size_t piece) {
-        visit(begin + 1, end + 1, piece);
-      });
+      t.for_pieces(c.fluid_cells,
+                   [&](std::size_t begin, std::size_t end, std::size_t piece) { visit(begin + 1, end + 1, piece); });
     };
     in_pieces([&](std::size_t begin, std::size_t end, std::size_t piece) {
       std::array<std::size_t, colours> n{};
@@ -108,14 +103,12 @@ class coloured_blocks {
     });
     for (unsigned o = 0; o < colours; ++o) {
       std::size_t total = 0;
-      for (std::size_t piece = 0; piece < pieces; ++piece)
-        total += std::exchange(next[piece][o], total);
+      for (std::size_t piece = 0; piece < pieces; ++piece) total += std::exchange(next[piece][o], total);
       blocks_[o].resize(total);
     }
     in_pieces([&](std::size_t begin, std::size_t end, std::size_t piece) {
       std::array<std::size_t, colours> at = next[piece];
-      each_block(c, begin, end,
-                 [&](unsigned colour, const block<D>& b) { blocks_[colour][at[colour]++] = b; });
+      each_block(c, begin, end, [&](unsigned colour, const block<D>& b) { blocks_[colour][at[colour]++] = b; });
     });
   }
 

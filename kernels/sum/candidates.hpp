@@ -30,19 +30,19 @@ class range_list {
   unsigned n_ = 0;
 };
 
-/// Finds the candidates of one particle that are in reach. Two steps instead of one loop: the first only tests distances and
-/// packs the indices that pass without a branch, the second (the visitor) runs the formula on those alone; so the
-/// branch predictor never has to guess a distance.
+/// Finds the candidates of one particle that are in reach. Two steps instead of one loop: the first only tests
+/// distances and packs the indices that pass without a branch, the second (the visitor) runs the formula on those
+/// alone; so the branch predictor never has to guess a distance.
 template <class I>
 class candidate_filter {
  public:
   using real = typename I::real;
   static constexpr int dim = I::dim;
 
-  /// Calls visit(j) for every j of the ranges with |x_i - x_j|^2 < reach2, in ascending order within a range; returns the number.
+  /// Calls visit(j) for every j of the ranges with |x_i - x_j|^2 < reach2, in ascending order within a range; returns
+  /// the number.
   template <class Ranges, class Visit>
-  [[gnu::always_inline]] static std::size_t each_in_reach(const problem<I>& p,
-                                                          const vec<dim, real>& x_i, real reach2,
+  [[gnu::always_inline]] static std::size_t each_in_reach(const problem<I>& p, const vec<dim, real>& x_i, real reach2,
                                                           const Ranges& ranges, Visit&& visit) {
     constexpr std::uint32_t piece = 256;
     std::uint32_t hits[2 * piece];

@@ -9,8 +9,7 @@
 namespace pairsum {
 namespace {
 
-bool inside(const particle_table& p, std::size_t i, const std::vector<double>& low,
-            const std::vector<double>& high) {
+bool inside(const particle_table& p, std::size_t i, const std::vector<double>& low, const std::vector<double>& high) {
   bool in = true;
   for (std::size_t d = 0; d < low.size(); ++d) in = in && p.x[d][i] >= low[d] && p.x[d][i] <= high[d];
   return in;
@@ -27,30 +26,26 @@ void check_world(const setup& s) {
     throw error("Omega must have corners of " + std::to_string(s.dim) + " components, has " +
                 std::to_string(s.omega_low.size()) + " and " + std::to_string(s.omega_high.size()));
   for (std::size_t d = 0; d < s.omega_low.size(); ++d)
-    if (!std::isfinite(s.omega_low[d]) || !std::isfinite(s.omega_high[d]) ||
-        !(s.omega_low[d] <= s.omega_high[d]))
-      throw error("Omega must have finite corners with A <= B, component " + std::to_string(d) +
-                  " is [" + text(s.omega_low[d]) + ", " + text(s.omega_high[d]) + "]");
+    if (!std::isfinite(s.omega_low[d]) || !std::isfinite(s.omega_high[d]) || !(s.omega_low[d] <= s.omega_high[d]))
+      throw error("Omega must have finite corners with A <= B, component " + std::to_string(d) + " is [" +
+                  text(s.omega_low[d]) + ", " + text(s.omega_high[d]) + "]");
 }
 
 void check_input(const particle_table& p, const setup& s) {
-  check_world(s);
   if (p.dim != s.dim)
-    throw error("the particles are " + std::to_string(p.dim) + "D, the summation is " +
-                std::to_string(s.dim) + "D");
-  if (p.size() >= (std::size_t{1} << 32) - 1) throw error("at most 2^32 - 2 particles can be summed");
+    throw error("the particles are " + std::to_string(p.dim) + "D, the summation is " + std::to_string(s.dim) + "D");
+  check_world(s);
+  if (p.size() >= (std::size_t{1} << 32) - 1024) throw error("at most 2^32 - 1025 particles can be summed");
   std::size_t outside = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto finite = [&](double a, const char* what) {
       if (!std::isfinite(a))
-        throw error("particle " + std::to_string(i) + " has a " + what + " that is not finite (" +
-                    text(a) + ")");
+        throw error("particle " + std::to_string(i) + " has a " + what + " that is not finite (" + text(a) + ")");
     };
     const auto positive = [&](double a, const char* what) {
       finite(a, what);
       if (!(a > 0))
-        throw error("particle " + std::to_string(i) + " has a " + what + " of " + text(a) +
-                    ", which must be positive");
+        throw error("particle " + std::to_string(i) + " has a " + what + " of " + text(a) + ", which must be positive");
     };
     for (int d = 0; d < p.dim; ++d) {
       finite(p.x[d][i], "position");
@@ -73,12 +68,10 @@ void check_order(const std::vector<std::uint32_t>& order, std::size_t rows) {
     once = order[k] < rows && !seen[order[k]];
     if (once) seen[order[k]] = true;
   }
-  if (!once)
-    throw error("an order of memory must name each of the " + std::to_string(rows) + " particles once");
+  if (!once) throw error("an order of memory must name each of the " + std::to_string(rows) + " particles once");
 }
 
-std::size_t drop_outside(particle_table& p, const std::vector<double>& low,
-                         const std::vector<double>& high) {
+std::size_t drop_outside(particle_table& p, const std::vector<double>& low, const std::vector<double>& high) {
   std::size_t kept = 0;
   const std::size_t n = p.size();
   for (std::size_t i = 0; i < n; ++i) {

@@ -6,7 +6,8 @@
 
 namespace pairsum {
 
-/// Throws pairsum::error unless H, Omega and every particle are usable: names the first bad particle, or counts those outside Omega.
+/// Throws pairsum::error unless H, Omega and every particle are usable: names the first bad particle, or counts those
+/// outside Omega.
 void check_input(const particle_table& p, const setup& s);
 
 /// Throws pairsum::error for an H or an Omega that no particles could make good.
@@ -16,7 +17,6 @@ void check_world(const setup& s);
 void check_order(const std::vector<std::uint32_t>& order, std::size_t rows);
 
 /// Removes particles outside the closed Omega; returns how many. Ids are row numbers, so they change.
-std::size_t drop_outside(particle_table& p, const std::vector<double>& low,
-                         const std::vector<double>& high);
+std::size_t drop_outside(particle_table& p, const std::vector<double>& low, const std::vector<double>& high);
 
 }  // namespace pairsum

@@ -17,9 +17,8 @@ combination combination_of() {
 /// Enrols backend B with interaction I.
 template <class B, class I>
 void enrol_summation(registry& r) {
-  r.enrol(B::traits.name, combination_of<I>(), [](const setup& s) -> std::unique_ptr<summation> {
-    return std::make_unique<summation_of<B, I>>(s);
-  });
+  r.enrol(B::traits.name, combination_of<I>(),
+          [](const setup& s) -> std::unique_ptr<summation> { return std::make_unique<summation_of<B, I>>(s); });
 }
 
 }  // namespace pairsum

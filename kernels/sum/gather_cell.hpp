@@ -4,7 +4,8 @@
 
 namespace pairsum {
 
-/// Every fluid particle of a cell collects from the 3^d cells around it. Writes the rates of this cell's particles alone.
+/// Every fluid particle of a cell collects from the 3^d cells around it. Writes the rates of this cell's particles
+/// alone.
 template <class I, class Probe>
 PAIRSUM_SAME_CODE void gather_cell(const problem<I>& p, std::size_t cell, Probe& probe) {
   constexpr unsigned stencil = cells<I::dim>::stencil;

@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "core/tbb_arena.hpp"
 #include "grid/hashed_grid.hpp"
 #include "sum/check.hpp"
-#include "core/names.hpp"
 
 namespace pairsum {
 
@@ -42,7 +42,7 @@ void with_one_thread(runtime kind, const std::function<void(const team&)>& f) {
   f(team::tbb(1, arena));
 }
 
-#define PAIRSUM_GRIDS(D, R)                                          \
+#define PAIRSUM_GRIDS(D, R)                                           \
   template std::unique_ptr<grid<D, R>> make_grid<D, R>(const setup&); \
   template box<D, R> make_box<D, R>(const setup&);
 PAIRSUM_GRIDS(1, double)

@@ -6,6 +6,7 @@
 
 #include "core/team.hpp"
 #include "grid/grid.hpp"
+#include "grid/hashed_grid.hpp"
 #include "sum/setup.hpp"
 
 namespace pairsum {

@@ -3,12 +3,11 @@
 
 namespace pairsum {
 
-/// The pairs one fluid cell opens in a serial sweep with a half stencil: its fluid against the fluid of the (3^d - 1)/2 forward
-/// neighbours, and against the boundary of all neighbours (a boundary cell opens no pairs of its own, so both sides are taken here).
-/// Calls visit(i, fluid_ranges, boundary_ranges) for every fluid particle i of the cell.
+/// The pairs one fluid cell opens in a serial sweep with a half stencil: its fluid against the fluid of the (3^d - 1)/2
+/// forward neighbours, and against the boundary of all neighbours (a boundary cell opens no pairs of its own, so both
+/// sides are taken here). Calls visit(i, fluid_ranges, boundary_ranges) for every fluid particle i of the cell.
 template <int D, class Probe, class Visit>
-[[gnu::always_inline]] inline void sweep_cell(const cells<D>& c, std::size_t cell, Probe& probe,
-                                              Visit&& visit) {
+[[gnu::always_inline]] inline void sweep_cell(const cells<D>& c, std::size_t cell, Probe& probe, Visit&& visit) {
   constexpr unsigned centre = pattern::stencil_centre<D>;
   const cell_range& own = c.range[cell];
   range_list<centre> forward;

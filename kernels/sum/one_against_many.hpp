@@ -6,15 +6,14 @@ namespace pairsum {
 
 /// Adds to u_i what the boundary particles of `ranges` do to fluid particle i.
 template <class I, class Probe, class Ranges>
-[[gnu::always_inline]] inline void add_boundary(const problem<I>& p, std::uint32_t i,
-                                                const particle_of<I>& a, const Ranges& ranges,
-                                                rates_of<I>& u_i, Probe& probe) {
+[[gnu::always_inline]] inline void add_boundary(const problem<I>& p, std::uint32_t i, const particle_of<I>& a,
+                                                const Ranges& ranges, rates_of<I>& u_i, Probe& probe) {
   if (ranges.empty()) return;
   const auto x_i = p.position(i);
   const std::size_t n = candidate_filter<I>::each_in_reach(
       p, x_i, p.boundary_reach2, ranges, [&](std::uint32_t b) __attribute__((always_inline)) {
         const vec<I::dim, typename I::real> r = x_i - p.position(b);
-        add(u_i, p.formula->boundary(r, norm2<I::dim, typename I::real>(r), a, p.boundary.load(b)));
+        add(u_i, p.formula->boundary(r, norm2<I::dim, typename I::real>(r), a, p.boundary_particle(b)));
       });
   if constexpr (Probe::counting) {
     probe.tested(candidate_filter<I>::size(ranges));
@@ -22,10 +21,10 @@ template <class I, class Probe, class Ranges>
   }
 }
 
-/// Symmetric: each fluid pair (i, j in ranges) is computed once and updates both; i's sum stays in registers until the end.
+/// Symmetric: each fluid pair (i, j in ranges) is computed once and updates both; i's sum stays in registers until the
+/// end.
 template <class I, class Probe, class FluidRanges, class BoundaryRanges>
-[[gnu::always_inline]] inline void scatter_one(const problem<I>& p, std::uint32_t i,
-                                               const FluidRanges& fluid,
+[[gnu::always_inline]] inline void scatter_one(const problem<I>& p, std::uint32_t i, const FluidRanges& fluid,
                                                const BoundaryRanges& boundary, Probe& probe) {
   const auto x_i = p.position(i);
   const auto a = p.fluid.load(i);
@@ -45,11 +44,10 @@ template <class I, class Probe, class FluidRanges, class BoundaryRanges>
   p.u.add(i, u_i);
 }
 
-/// Gather: fluid particle i collects its own side from every neighbour; nothing else is written. A pair is seen twice, so the probe
-/// counts it by its side with j < i.
+/// Gather: fluid particle i collects its own side from every neighbour; nothing else is written. A pair is seen twice,
+/// so the probe counts it by its side with j < i.
 template <class I, class Probe, class FluidRanges, class BoundaryRanges>
-[[gnu::always_inline]] inline void gather_one(const problem<I>& p, std::uint32_t i,
-                                              const FluidRanges& fluid,
+[[gnu::always_inline]] inline void gather_one(const problem<I>& p, std::uint32_t i, const FluidRanges& fluid,
                                               const BoundaryRanges& boundary, Probe& probe) {
   const auto x_i = p.position(i);
   const auto a = p.fluid.load(i);

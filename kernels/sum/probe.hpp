@@ -6,9 +6,9 @@ namespace pairsum {
 /// Work of one summation, counted in an instantiation of its own, never in the timed one.
 struct work_counts {
   std::uint64_t cells = 0, cells_nonempty = 0;
-  std::uint64_t sumF1 = 0, sumF2 = 0;      ///< cells and cell pairs visited (those with fluid); 0 for the gather
-  std::uint64_t pairs_tested = 0;          ///< distance tests made
-  std::uint64_t pairs_fluid_fluid = 0;     ///< interacting pairs, each once
+  std::uint64_t sumF1 = 0, sumF2 = 0;   ///< cells and cell pairs visited (those with fluid); 0 for the gather
+  std::uint64_t pairs_tested = 0;       ///< distance tests made
+  std::uint64_t pairs_fluid_fluid = 0;  ///< interacting pairs, each once
   std::uint64_t pairs_fluid_boundary = 0;
 
   std::uint64_t pairs_interacting() const { return pairs_fluid_fluid + pairs_fluid_boundary; }

@@ -6,17 +6,18 @@
 
 namespace pairsum {
 
-/// Everything a backend sees of one summation: sorted particles as columns, the cells they lie in, the formula, and where the
-/// rates go. Indices are positions in the sorted set: fluid [0, fluid_count), boundary behind it. Nothing here is owned.
+/// Everything a backend sees of one summation: sorted particles as columns, the cells they lie in, the formula, and
+/// where the rates go. Indices are positions in the sorted set: fluid [0, fluid_count), boundary behind it. Nothing
+/// here is owned.
 template <interaction I>
 struct problem {
   using real = typename I::real;
   static constexpr int dim = I::dim;
 
-  std::array<const real*, dim> x;                          ///< positions, all particles
-  field_pointers<particle_of<I>> fluid;                    ///< index: fluid particle
-  field_pointers<boundary_particle_of<I>> boundary;        ///< index: boundary particle
-  field_pointers<rates_of<I>> u;                           ///< index: fluid particle
+  std::array<const real*, dim> x;                    ///< positions, all particles
+  field_pointers<particle_of<I>> fluid;              ///< index: fluid particle
+  field_pointers<boundary_particle_of<I>> boundary;  ///< read it through boundary_particle(b)
+  field_pointers<rates_of<I>> u;                     ///< index: fluid particle
   const pairsum::cells<dim>* grid_cells;
   const I* formula;
   real reach2, boundary_reach2;  ///< H^2 and (boundary_reach H)^2
@@ -24,6 +25,10 @@ struct problem {
 
   const pairsum::cells<dim>& cells() const { return *grid_cells; }
 
+  /// What boundary particle b brings, b being its position in the sorted set.
+  [[gnu::always_inline]] boundary_particle_of<I> boundary_particle(std::size_t b) const {
+    return boundary.load(b - fluid_count);
+  }
   [[gnu::always_inline]] vec<dim, real> position(std::size_t i) const {
     vec<dim, real> p;
     for (int d = 0; d < dim; ++d) p[d] = x[d][i];

@@ -5,8 +5,8 @@
 
 namespace pairsum {
 
-/// Rates of all fluid particles, a column per scalar ("drho", "dv_x", ...), rows in id order; SI units. Integers up to 2^53 are
-/// exact. Rows of ids that are not fluid (any more) are 0.
+/// Rates of all fluid particles, a column per scalar ("drho", "dv_x", ...), rows in id order; SI units. Integers up to
+/// 2^53 are exact. Rows of ids that are not fluid (any more) are 0.
 struct rate_table {
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;

@@ -11,9 +11,10 @@
 
 namespace pairsum {
 
-/// The reference for one interaction in one precision. Terms are evaluated in R with their error bounds, sums run in long
-/// double. A backend's rate may differ by its terms' errors, the reference's own, and the backend's n additions in any order:
-///   |rate - value| <= 2 sum e_k + n u / (1 - n u) * sum (|t_k| + e_k)           (Higham, sec. 4.2)
+/// The reference for one interaction in one precision. Terms are evaluated in R with their error bounds, sums run in
+/// long double. A backend's rate may differ by its terms' errors, the reference's own, and the backend's n additions in
+/// any order:
+///   |rate - value| <= 2 sum e_k + n u / (1 - n u) * sum (|t_k| + 2 e_k)           (Higham, sec. 4.2)
 template <class I>
 class reference_of final : public reference {
   using R = typename I::real;
@@ -25,8 +26,7 @@ class reference_of final : public reference {
  public:
   explicit reference_of(const setup& s) : formula_(s.constants), H_(static_cast<R>(s.constants.H)) {}
 
-  expectation brute_force(const particle_table& table, const team& t,
-                          std::vector<std::uint32_t> ids) const override {
+  expectation brute_force(const particle_table& table, const team& t, std::vector<std::uint32_t> ids) const override {
     const world w(*this, table, ids.empty());
     if (ids.empty()) ids = w.fluid;
     return evaluate(w, ids, t, [&](std::uint32_t, auto&& meet) {
@@ -93,8 +93,7 @@ class reference_of final : public reference {
     std::array<std::int64_t, D> cell(const vec<D, R>& x) const {
       std::array<std::int64_t, D> c;
       for (int d = 0; d < D; ++d)
-        c[D - 1 - d] =
-            static_cast<std::int64_t>(std::floor(static_cast<double>(x[d]) * inverse_width));
+        c[D - 1 - d] = static_cast<std::int64_t>(std::floor(static_cast<double>(x[d]) * inverse_width));
       return c;
     }
     template <class Meet>
@@ -127,8 +126,7 @@ class reference_of final : public reference {
         magnitude[k] += std::abs(plain(t));
         e[k] = error_of(t);
       });
-      if (other)
-        each_scalar(*other, [&](const auto& t, int k) { e[k] = std::max(e[k], error_of(t)); });
+      if (other) each_scalar(*other, [&](const auto& t, int k) { e[k] = std::max(e[k], error_of(t)); });
       for (int k = 0; k < slots; ++k) error[k] += e[k];
     }
     static long double plain(const tracked& t) { return t.v; }
@@ -143,8 +141,7 @@ class reference_of final : public reference {
     expectation out;
     out.names = rate_names<rates_of<I>>();
     out.ids = ids;
-    for (auto* c : {&out.value, &out.bound, &out.magnitude})
-      c->assign(slots, std::vector<double>(ids.size()));
+    for (auto* c : {&out.value, &out.bound, &out.magnitude}) c->assign(slots, std::vector<double>(ids.size()));
     constexpr bool exact = std::is_integral_v<std::remove_cvref_t<decltype(first_scalar())>>;
     const R boundary_reach = static_cast<R>(I::boundary_reach) * H_;
     std::atomic<std::uint64_t> fluid_sides = 0, boundary_pairs = 0;
@@ -181,9 +178,7 @@ class reference_of final : public reference {
           out.value[c][k] = static_cast<double>(s.value[c]);
           out.magnitude[c][k] = static_cast<double>(s.magnitude[c]);
           out.bound[c][k] =
-              exact ? 0
-                    : static_cast<double>(2 * s.error[c] +
-                                          n * u / (1 - n * u) * (s.magnitude[c] + s.error[c]));
+              exact ? 0 : static_cast<double>(2 * s.error[c] + n * u / (1 - n * u) * (s.magnitude[c] + 2 * s.error[c]));
         }
       }
       fluid_sides += sides;

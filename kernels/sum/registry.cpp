@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "sum/enrolment.hpp"
 #include "core/names.hpp"
 #include "sum/check.hpp"
+#include "sum/enrolment.hpp"
 
 namespace pairsum {
 namespace {
@@ -17,10 +17,6 @@ std::vector<T> distinct(const Entries& entries, Get get) {
     if (std::ranges::find(values, v) == values.end()) values.push_back(v);
   }
   return values;
-}
-
-void check_word(std::string_view what, const std::string& word, const std::vector<std::string>& valid) {
-  if (std::ranges::find(valid, word) == valid.end()) throw unknown_name(what, word, valid);
 }
 
 }  // namespace
@@ -81,8 +77,8 @@ const auto& registry::find(const Entries& entries, const setup& s) const {
     if constexpr (requires { e.backend; })
       if (e.backend != s.backend) continue;
     const combination& c = e.what;
-    if (c.interaction == s.interaction && (c.smoothing.empty() || c.smoothing == s.smoothing) &&
-        c.dim == s.dim && c.precision == s.precision)
+    if (c.interaction == s.interaction && (c.smoothing.empty() || c.smoothing == s.smoothing) && c.dim == s.dim &&
+        c.precision == s.precision)
       return e;
     const std::string words = c.interaction + (c.smoothing.empty() ? "" : "/" + c.smoothing) + "/" +
                               std::to_string(c.dim) + "D/" + c.precision;

@@ -38,7 +38,8 @@ class registry {
   /// The backend's entry; an unknown or unavailable name is an error that lists the valid ones.
   const backend_entry& find_backend(const std::string& name) const;
 
-  /// The summation that `s` names, without particles yet. Errors: unknown names, combinations that were not built, M, H, Omega.
+  /// The summation that `s` names, without particles yet. Errors: unknown names, combinations that were not built, M,
+  /// H, Omega.
   std::unique_ptr<summation> make_summation(const setup& s) const;
   /// The oracle for the interaction, smoothing, dimension and precision that `s` names.
   std::unique_ptr<reference> make_reference(const setup& s) const;

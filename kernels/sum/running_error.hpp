@@ -7,9 +7,10 @@
 
 namespace pairsum {
 
-/// A value of working precision R with a bound on how far any evaluation of the same expression in R can be from the exact
-/// result: running error analysis (Wilkinson; Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., sec. 3.3). A fused
-/// multiply-add rounds less often than the bound assumes, so the bound holds with and without contraction.
+/// A value of working precision R with a bound on how far any evaluation of the same expression in R can be from the
+/// exact result: running error analysis (Wilkinson; Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed.,
+/// sec. 3.3). A fused multiply-add rounds less often than the bound assumes, so the bound holds with and without
+/// contraction.
 template <class R>
 struct running_error {
   R v = 0;
@@ -19,12 +20,11 @@ struct running_error {
   running_error(R value) : v(value) {}  // NOLINT: exact inputs convert
   running_error(R value, double bound) : v(value), e(bound) {}
   template <class N>
-    requires(std::is_arithmetic_v<N> && !std::is_same_v<N, R>)
-  explicit(false) running_error(N value) : v(static_cast<R>(value)) {}
+  requires(std::is_arithmetic_v<N> && !std::is_same_v<N, R>) explicit(false) running_error(N value)
+      : v(static_cast<R>(value)) {}
 
   static double rounded(R value) {
-    return 0.5 * static_cast<double>(std::numeric_limits<R>::epsilon()) *
-           std::abs(static_cast<double>(value));
+    return 0.5 * static_cast<double>(std::numeric_limits<R>::epsilon()) * std::abs(static_cast<double>(value));
   }
   /// What a product or quotient can lose below the smallest normal number.
   static constexpr double underflow = static_cast<double>(std::numeric_limits<R>::denorm_min());
@@ -66,9 +66,7 @@ struct running_error {
     return {a.v < b.v ? b.v : a.v, std::max(a.e, b.e)};
   }
   friend running_error absolute(const running_error& a) { return {std::abs(a.v), a.e}; }
-  friend running_error select(bool mask, const running_error& a, const running_error& b) {
-    return mask ? a : b;
-  }
+  friend running_error select(bool mask, const running_error& a, const running_error& b) { return mask ? a : b; }
 };
 
 }  // namespace pairsum
@@ -80,6 +78,14 @@ struct NumTraits<pairsum::running_error<R>> : NumTraits<R> {
   using NonInteger = Real;
   using Nested = Real;
   using Literal = R;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 2, AddCost = 4, MulCost = 8 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 2,
+    AddCost = 4,
+    MulCost = 8
+  };
 };
 }  // namespace Eigen

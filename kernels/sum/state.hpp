@@ -5,7 +5,8 @@
 
 namespace pairsum {
 
-/// A summation whose particles are known to be D-dimensional in precision R: what integrators and backends' adapters work on.
+/// A summation whose particles are known to be D-dimensional in precision R: what integrators and backends' adapters
+/// work on.
 template <int D, class R>
 class state : public summation {
  public:

@@ -17,8 +17,9 @@ class summation {
 
   virtual const backend_traits& traits() const = 0;
 
-  /// Takes the particles (ids are row numbers) in the given order of memory (empty: id order). Positions must be finite and in
-  /// Omega, masses and densities positive; else an error that says which particle, or how many, and changes nothing.
+  /// Takes the particles (ids are row numbers) in the given order of memory (empty: id order). Positions must be finite
+  /// and in Omega, masses and densities positive; else an error that says which particle, or how many, and changes
+  /// nothing.
   virtual void load(const particle_table& p, const std::vector<std::uint32_t>& order) = 0;
 
   virtual void index(const team& t) = 0;    ///< cell keys, sort, reorder, cell ranges, neighbour table

@@ -2,7 +2,6 @@
 #include <memory>
 #include <utility>
 
-#include "grid/hashed_grid.hpp"
 #include "grid/indexer.hpp"
 #include "interactions/count.hpp"
 #include "sum/check.hpp"
@@ -19,8 +18,7 @@ class interaction_columns {
   static constexpr int D = I::dim;
 
  public:
-  explicit interaction_columns(const physics& constants)
-      : formula_(constants), H_(static_cast<R>(constants.H)) {}
+  explicit interaction_columns(const physics& constants) : formula_(constants), H_(static_cast<R>(constants.H)) {}
 
   /// Derives the per-particle terms of fluid [0, fluid) and boundary [fluid, fluid + boundary).
   void derive(const particle_set<D, R>& p, std::size_t fluid, std::size_t boundary, const team& t) {
@@ -33,8 +31,7 @@ class interaction_columns {
     });
     const auto wall = boundary_.pointers();
     t.for_pieces(boundary, [&](std::size_t begin, std::size_t end, std::size_t) {
-      for (std::size_t i = begin; i < end; ++i)
-        wall.store(i, formula_.derive_boundary(state_of(p, fluid + i)));
+      for (std::size_t i = begin; i < end; ++i) wall.store(i, formula_.derive_boundary(state_of(p, fluid + i)));
     });
   }
 
@@ -51,7 +48,7 @@ class interaction_columns {
     problem<I> v{};
     for (int d = 0; d < D; ++d) v.x[d] = p.x[d].data();
     v.fluid = fluid_.pointers();
-    v.boundary = boundary_.pointers().starting_at(fluid_.size());
+    v.boundary = boundary_.pointers();
     v.u = u_.pointers();
     v.grid_cells = &c;
     v.formula = &formula_;
@@ -76,8 +73,7 @@ class interaction_columns {
 
 /// Counts the work of backend B on indexed particles, by summing `count` on one thread.
 template <class B, int D, class R>
-work_counts count_work_of(const particle_set<D, R>& p, const indexer<D, R>& index,
-                          const physics& constants) {
+work_counts count_work_of(const particle_set<D, R>& p, const indexer<D, R>& index, const physics& constants) {
   using I = count<D, R>;
   interaction_columns<I> columns(constants);
   const team alone;
@@ -97,7 +93,7 @@ work_counts count_work_of(const particle_set<D, R>& p, const indexer<D, R>& inde
 
 /// The adapter between the erased door and one backend with one interaction.
 template <class B, interaction I>
-  requires backend<B, I>
+requires backend<B, I>
 class summation_of final : public state<I::dim, typename I::real> {
   using R = typename I::real;
   static constexpr int D = I::dim;
@@ -140,9 +136,7 @@ class summation_of final : public state<I::dim, typename I::real> {
     if constexpr (requires { workspace_.reduce(view_, t); }) workspace_.reduce(view_, t);
   }
 
-  work_counts count_work() override {
-    return count_work_of<B>(particles_, index_, setup_.constants);
-  }
+  work_counts count_work() override { return count_work_of<B>(particles_, index_, setup_.constants); }
 
   rate_table rates() const override {
     rate_table table;
@@ -150,9 +144,8 @@ class summation_of final : public state<I::dim, typename I::real> {
     table.columns.assign(field_count<rates_of<I>>, std::vector<double>(rows_, 0.0));
     const auto u = view_.u;
     for (std::size_t i = 0; i < view_.fluid_count; ++i)
-      each_scalar(u.load(i), [&](const auto& a, int slot) {
-        table.columns[slot][particles_.id[i]] = static_cast<double>(a);
-      });
+      each_scalar(u.load(i),
+                  [&](const auto& a, int slot) { table.columns[slot][particles_.id[i]] = static_cast<double>(a); });
     return table;
   }
 
@@ -179,7 +172,10 @@ class summation_of final : public state<I::dim, typename I::real> {
 
   typename base::dynamics rates_of_state() override {
     typename base::dynamics found;
-    if constexpr (requires(rates_of<I> r) { r.drho; r.dv; }) {
+    if constexpr (requires(rates_of<I> r) {
+                    r.drho;
+                    r.dv;
+                  }) {
       static_assert(field_count<rates_of<I>> == 1 + D, "drho, then dv");
       const auto u = columns_.rates();
       found.drho = u.template column_as<R>(0);

@@ -7,6 +7,10 @@ BAD_RUNS = [
     (["--M", "0"], ["M must be between 2 and 10"]),
     (["--M", "1"], ["M must be between 2 and 10", "one cell"]),
     (["--M", "40"], ["M must be between 2 and 10"]),
+    (["--M", "1431655766"], ["M must be between 2 and 10"]),
+    (["--dim", "0", "--M", "3"], ["dimension", "0D", "3D"]),
+    (["--dim", "0", "--M", "1"], ["dimension", "0D", "3D"]),
+    (["--out", ""], ["--out"]),
     (["--M", "six"], ["--M", "six"]),
     (["--threads", "0"], ["threads must be at least 1"]),
     (["--threads", "-2"], ["threads must be at least 1"]),
@@ -36,7 +40,7 @@ BAD_RUNS = [
 @pytest.mark.parametrize("words, says", BAD_RUNS, ids=[" ".join(w) for w, _ in BAD_RUNS])
 def test_run_refuses(pairsum, tmp_path, words, says):
     out = tmp_path / "rows.jsonl"
-    done = pairsum("run", "--out", out, *([] if words[0] in SMALL else SMALL[:2]), *words)
+    done = pairsum("run", *([] if "--out" in words else ["--out", out]), *([] if words[0] in SMALL else SMALL[:2]), *words)
     assert refused(done, *says)
     assert not out.exists()
 

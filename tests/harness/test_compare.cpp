@@ -39,6 +39,17 @@ TEST(compare, rejects_nan_and_infinity) {
   EXPECT_FALSE(compare(rates(std::numeric_limits<double>::infinity(), -2), two_particles()).ok);
 }
 
+TEST(compare, rejects_an_infinite_rate_with_an_infinite_bound) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  expectation e = two_particles();
+  e.bound = {{infinity, 0.2}};
+  EXPECT_FALSE(compare(rates(infinity, -2), e).ok);
+  EXPECT_FALSE(compare(rates(-infinity, -2), e).ok);
+  EXPECT_NE(compare(rates(infinity, -2), e).error.find("drho of particle 0"), std::string::npos);
+  e.bound = {{0.1, 0.2}};
+  EXPECT_TRUE(compare(rates(1, -2), e).ok) << "the bound alone was wrong";
+}
+
 TEST(compare, integers_have_no_tolerance) {
   expectation e = two_particles();
   e.bound = {{0, 0}};

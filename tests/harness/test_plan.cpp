@@ -24,8 +24,9 @@ TEST(plan, crosses_the_lists_and_runs_serial_backends_once_per_M) {
   const auto& points = worlds.front().points;
   EXPECT_EQ(points.size(), 2u * (1 + 3 + 3));
   EXPECT_EQ(std::ranges::count(points, "naive", &point::backend), 2);
-  for (const point& p : points)
-    if (p.backend == "naive") EXPECT_EQ(p.threads, 1);
+  for (const point& p : points) {
+    EXPECT_TRUE(p.backend != "naive" || p.threads == 1);
+  }
 }
 
 TEST(plan, one_world_per_dx_and_state) {

@@ -62,11 +62,9 @@ struct broken_symmetric {
    private:
     /// sumF1 (one cell, `same`) or sumF2 (two cells).
     template <class Probe>
-    void sum_cells(const problem<I>& p, const cell_range& a, const cell_range& b, bool same,
-                   Probe& probe) {
+    void sum_cells(const problem<I>& p, const cell_range& a, const cell_range& b, bool same, Probe& probe) {
       for (auto i = a.fluid_begin; i < a.fluid_end; ++i)
-        for (auto j = same ? i + 1 : b.fluid_begin; j < b.fluid_end; ++j)
-          fluid_pair(p, i, j, probe);
+        for (auto j = same ? i + 1 : b.fluid_begin; j < b.fluid_end; ++j) fluid_pair(p, i, j, probe);
       sum_walls(p, a, b, probe);
       if (!same) sum_walls(p, b, a, probe);
     }
@@ -93,8 +91,7 @@ struct broken_symmetric {
     }
 
     template <class Probe>
-    void sum_walls(const problem<I>& p, const cell_range& fluid, const cell_range& wall,
-                   Probe& probe) {
+    void sum_walls(const problem<I>& p, const cell_range& fluid, const cell_range& wall, Probe& probe) {
       for (auto i = fluid.fluid_begin; i < fluid.fluid_end; ++i)
         for (auto b = wall.boundary_begin; b < wall.boundary_end; ++b) {
           probe.tested(1);
@@ -102,7 +99,7 @@ struct broken_symmetric {
           const real r2 = norm2<I::dim, real>(r);
           if (!(r2 < p.boundary_reach2)) continue;
           probe.boundary_pairs(1);
-          p.u.add(i, p.formula->boundary(r, r2, p.fluid.load(i), p.boundary.load(b)));
+          p.u.add(i, p.formula->boundary(r, r2, p.fluid.load(i), p.boundary_particle(b)));
         }
     }
 

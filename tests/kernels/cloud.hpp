@@ -12,9 +12,8 @@ namespace pairsum::test_kit {
 
 /// Where the particles of a random cloud lie.
 enum class shape { uniform, clustered, coincident, one_cell, line, plane, cell_faces };
-inline const std::vector<shape> shapes{shape::uniform,   shape::clustered, shape::coincident,
-                                       shape::one_cell,  shape::line,      shape::plane,
-                                       shape::cell_faces};
+inline const std::vector<shape> shapes{shape::uniform, shape::clustered, shape::coincident, shape::one_cell,
+                                       shape::line,    shape::plane,     shape::cell_faces};
 
 /// A random cloud, described by a few numbers so that a failing one can be made again.
 struct cloud {
@@ -28,9 +27,9 @@ struct cloud {
 };
 
 inline std::ostream& operator<<(std::ostream& o, const cloud& c) {
-  return o << "cloud{shape " << static_cast<int>(c.form) << ", fluid " << c.fluid << ", boundary "
-           << c.boundary << ", length " << c.length << " H, corner " << c.corner << ", H " << c.H
-           << ", M " << c.M << ", seed " << c.seed << "}";
+  return o << "cloud{shape " << static_cast<int>(c.form) << ", fluid " << c.fluid << ", boundary " << c.boundary
+           << ", length " << c.length << " H, corner " << c.corner << ", H " << c.H << ", M " << c.M << ", seed "
+           << c.seed << "}";
 }
 
 /// Position of particle i as fractions of Omega's edges.

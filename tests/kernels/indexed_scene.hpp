@@ -29,8 +29,7 @@ struct indexed_scene {
   std::array<int, 3> cell_of(std::size_t i) const {
     std::array<int, 3> c;
     for (int d = 0; d < 3; ++d)
-      c[d] = static_cast<int>(std::floor((particles.x[d][i] - omega.low[d]) / cell_width)) &
-             ((1 << M) - 1);
+      c[d] = static_cast<int>(std::floor((particles.x[d][i] - omega.low[d]) / cell_width)) & ((1 << M) - 1);
     return c;
   }
 };

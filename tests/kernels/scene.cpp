@@ -51,15 +51,14 @@ std::string disagreement(const rate_table& rates, const expectation& e, bool com
       const double rate = rates.columns[c].at(e.ids[k]);
       seen[e.ids[k]] = true;
       if (std::abs(rate - e.value[c][k]) <= e.bound[c][k]) continue;
-      text << rates.names[c] << " of particle " << e.ids[k] << " is " << rate << ", not "
-           << e.value[c][k] << " +- " << e.bound[c][k];
+      text << rates.names[c] << " of particle " << e.ids[k] << " is " << rate << ", not " << e.value[c][k] << " +- "
+           << e.bound[c][k];
       return text.str();
     }
     if (!complete) continue;
     for (std::uint32_t i = 0; i < rates.columns[c].size(); ++i)
       if (rates.columns[c][i] != 0 && !seen[i]) {
-        text << rates.names[c] << " of particle " << i << " is " << rates.columns[c][i]
-             << ", not 0";
+        text << rates.names[c] << " of particle " << i << " is " << rates.columns[c][i] << ", not 0";
         return text.str();
       }
   }

@@ -41,14 +41,12 @@ INSTANTIATE_TEST_SUITE_P(backend, backends_test, testing::ValuesIn(backend_names
 
 void agrees(const std::string& backend, const std::string& interaction) {
   for (int M = 2; M <= 7; ++M) {
-    const auto sum =
-        registry::instance().make_summation(with(perturbed().world, backend, M, interaction));
+    const auto sum = registry::instance().make_summation(with(perturbed().world, backend, M, interaction));
     for (const int threads : {1, 2, 3, 7}) {
       workers w(sum->traits().threads, threads);
       sum->load(perturbed().particles, {});
       sum->evaluate(w.get());
-      EXPECT_EQ(disagreement(sum->rates(), expected(interaction)), "")
-          << "M=" << M << " threads=" << threads;
+      EXPECT_EQ(disagreement(sum->rates(), expected(interaction)), "") << "M=" << M << " threads=" << threads;
     }
   }
 }

@@ -24,9 +24,7 @@ std::size_t conflicts(const blocks& pass, const cells<3>& c, std::size_t fluid) 
   return static_cast<std::size_t>(std::ranges::count_if(writers, [](int n) { return n > 1; }));
 }
 
-blocks pass_of(const coloured_blocks<3>& all, unsigned colour) {
-  return {all[colour].begin(), all[colour].end()};
-}
+blocks pass_of(const coloured_blocks<3>& all, unsigned colour) { return {all[colour].begin(), all[colour].end()}; }
 
 class blocks_test : public testing::TestWithParam<int> {
  protected:
@@ -39,8 +37,7 @@ INSTANTIATE_TEST_SUITE_P(M, blocks_test, testing::Values(2, 3, 6));
 TEST_P(blocks_test, blocks_of_one_colour_write_different_particles) {
   std::size_t n = 0;
   for (unsigned o = 0; o < 8; ++o) {
-    EXPECT_EQ(conflicts(pass_of(coloured, o), s.index.view(), s.index.fluid()), 0u)
-        << "colour " << o;
+    EXPECT_EQ(conflicts(pass_of(coloured, o), s.index.view(), s.index.fluid()), 0u) << "colour " << o;
     n += coloured[o].size();
   }
   EXPECT_GT(n, 8u);
@@ -61,8 +58,7 @@ TEST_P(blocks_test, every_base_block_with_fluid_is_listed_once) {
   const int mask = (1 << s.M) - 1;
   for (const auto& [c, n] : fluid_cells)
     for (int o = 0; o < 8; ++o)
-      bases.insert(
-          {(c[0] - (o & 1)) & mask, (c[1] - (o >> 1 & 1)) & mask, (c[2] - (o >> 2)) & mask});
+      bases.insert({(c[0] - (o & 1)) & mask, (c[1] - (o >> 1 & 1)) & mask, (c[2] - (o >> 2)) & mask});
   std::vector<std::size_t> per_colour(8, 0);
   for (const auto& b : bases) ++per_colour[(b[0] & 1) | (b[1] & 1) << 1 | (b[2] & 1) << 2];
   for (unsigned o = 0; o < 8; ++o) EXPECT_EQ(coloured[o].size(), per_colour[o]) << "colour " << o;
@@ -93,13 +89,11 @@ TEST_P(blocks_test, sum_block_writes_its_own_cells_alone) {
       sum_block(p, b, probe);
       std::vector<bool> may(s.index.fluid(), false);
       for (const std::uint32_t cell : b)
-        for (auto i = s.index.view().range[cell].fluid_begin;
-             i < s.index.view().range[cell].fluid_end; ++i)
+        for (auto i = s.index.view().range[cell].fluid_begin; i < s.index.view().range[cell].fluid_end; ++i)
           may[i] = true;
       for (std::size_t i = 0; i < s.index.fluid(); ++i) {
         const bool wrote = p.u.load(i).neighbours != 0;
-        ASSERT_TRUE(may[i] || !wrote)
-            << "block " << k << " of colour " << o << " wrote particle " << i;
+        ASSERT_TRUE(may[i] || !wrote) << "block " << k << " of colour " << o << " wrote particle " << i;
         written += wrote;
       }
     }

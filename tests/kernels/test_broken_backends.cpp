@@ -29,12 +29,12 @@ class broken_backends_test : public testing::Test {
     summation_of<broken_symmetric<Fault::value>, I> sum(world);
     sum.load(s.particles, {});
     sum.evaluate(team());
-    return disagreement(sum.rates(), registry::instance().make_reference(world)->brute_force(
-                                         s.particles, some_threads()));
+    return disagreement(sum.rates(),
+                        registry::instance().make_reference(world)->brute_force(s.particles, some_threads()));
   }
 };
-using faults = testing::Types<with_fault<fault::none>, with_fault<fault::drop_pair>,
-                              with_fault<fault::double_pair>, with_fault<fault::flip_sign>>;
+using faults = testing::Types<with_fault<fault::none>, with_fault<fault::drop_pair>, with_fault<fault::double_pair>,
+                              with_fault<fault::flip_sign>>;
 TYPED_TEST_SUITE(broken_backends_test, faults);
 
 TYPED_TEST(broken_backends_test, one_wrong_pair_is_rejected) {

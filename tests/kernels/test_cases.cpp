@@ -12,14 +12,13 @@ namespace {
 using test_kit::error_of;
 using test_kit::says;
 
-initial_condition made(std::string_view name, double dx, std::string state = "rest",
-                       std::uint64_t seed = 1, int dim = 3) {
+initial_condition made(std::string_view name, double dx, std::string state = "rest", std::uint64_t seed = 1,
+                       int dim = 3) {
   return make_case(name, {.dim = dim, .dx = dx, .state = std::move(state), .seed = seed});
 }
 
 TEST(perturb, is_reproducible_and_depends_on_the_seed) {
-  const auto a = made("dam_break", 0.06, "perturbed", 5),
-             b = made("dam_break", 0.06, "perturbed", 5);
+  const auto a = made("dam_break", 0.06, "perturbed", 5), b = made("dam_break", 0.06, "perturbed", 5);
   const auto c = made("dam_break", 0.06, "perturbed", 6);
   EXPECT_EQ(a.particles.x, b.particles.x);
   EXPECT_EQ(a.particles.v, b.particles.v);
@@ -58,8 +57,7 @@ TEST(perturb, first_values_are_those_of_the_documented_generator) {
   EXPECT_DOUBLE_EQ(p.particles.rho[0], rest.particles.rho[0] * (0.99 + 0.02 * 0.648128820117275));
   for (std::uint64_t i = 0; i < 50; ++i) {
     for (std::uint64_t d = 0; d < 3; ++d) {
-      EXPECT_DOUBLE_EQ(p.particles.x[d][i],
-                       rest.particles.x[d][i] + dx * (-0.35 + 0.1 * uniform(1, 1, 3 * i + d)));
+      EXPECT_DOUBLE_EQ(p.particles.x[d][i], rest.particles.x[d][i] + dx * (-0.35 + 0.1 * uniform(1, 1, 3 * i + d)));
       EXPECT_NEAR(p.particles.v[d][i], 0.1 * c0 * (-1 + 2 * uniform(1, 2, 3 * i + d)), 1e-15);
     }
     EXPECT_DOUBLE_EQ(p.particles.rho[i], rest.particles.rho[i] * (0.99 + 0.02 * uniform(1, 3, i)));
@@ -89,13 +87,11 @@ TEST(perturb, respects_its_ranges_and_leaves_the_boundary_alone) {
 }
 
 TEST(cases, unknown_words_are_errors_that_list_the_valid_ones) {
-  EXPECT_TRUE(says(error_of([] { made("dam_braek", 0.1); }),
-                   {"case", "dam_braek", "dam_break", "lattice"}));
-  EXPECT_TRUE(says(error_of([] { made("lattice", 0.1, "resting"); }),
-                   {"state", "resting", "rest, perturbed"}));
+  EXPECT_TRUE(says(error_of([] { made("dam_braek", 0.1); }), {"case", "dam_braek", "dam_break", "lattice"}));
+  EXPECT_TRUE(says(error_of([] { made("lattice", 0.1, "resting"); }), {"state", "resting", "rest, perturbed"}));
   const auto c = made("lattice", 0.2);
-  EXPECT_TRUE(says(error_of([&] { memory_order("hilbert", c, 1); }),
-                   {"order", "hilbert", "lattice, shuffled, morton"}));
+  EXPECT_TRUE(
+      says(error_of([&] { memory_order("hilbert", c, 1); }), {"order", "hilbert", "lattice, shuffled, morton"}));
 }
 
 TEST(cases, bad_lengths_are_refused) {
@@ -104,26 +100,21 @@ TEST(cases, bad_lengths_are_refused) {
     for (const double dx : {-1.0, 0.0, std::nan(""), inf})
       EXPECT_TRUE(says(error_of([&] { made(name, dx); }), {"dx must be a positive length"})) << dx;
     for (const double H : {-1.0, std::nan(""), inf})
-      EXPECT_TRUE(
-          says(error_of([&] { make_case(name, {.dx = 0.1, .H = H}); }), {"H must be a positive"}))
-          << H;
+      EXPECT_TRUE(says(error_of([&] { make_case(name, {.dx = 0.1, .H = H}); }), {"H must be a positive"})) << H;
     EXPECT_NE(error_of([&] { made(name, 5); }), "");
     EXPECT_TRUE(says(error_of([&] { made(name, 1e-5); }), {"more than 2^32"}));
     EXPECT_TRUE(says(error_of([&] { made(name, 0.1, "rest", 1, 4); }), {"not in 4D"}));
   }
-  EXPECT_TRUE(
-      says(error_of([] { made("dam_break", 0.1, "rest", 1, 1); }), {"2D and 3D, not in 1D"}));
+  EXPECT_TRUE(says(error_of([] { made("dam_break", 0.1, "rest", 1, 1); }), {"2D and 3D, not in 1D"}));
 }
 
 /// Counts by the documented formulas: water at spacing dx, plates at dx/1.5 (shared edges twice),
 /// in 3D and 2D.
 TEST(dam_break, has_the_documented_counts) {
-  const auto points = [](double length, double spacing) {
-    return std::llround(length / spacing) + 1;
-  };
+  const auto points = [](double length, double spacing) { return std::llround(length / spacing) + 1; };
   for (const double dx : {0.1, 0.06, 0.0231}) {
-    const long long water = points(0.6 - 2 * dx, dx), x = points(3.25, dx / 1.5),
-                    y = points(1.8, dx / 1.5), z = points(0.6, dx / 1.5);
+    const long long water = points(0.6 - 2 * dx, dx), x = points(3.25, dx / 1.5), y = points(1.8, dx / 1.5),
+                    z = points(0.6, dx / 1.5);
     const auto c = made("dam_break", dx), flat = made("dam_break", dx, "rest", 1, 2);
     EXPECT_EQ(c.particles.count(particle_kind::fluid), water * water * water);
     EXPECT_EQ(c.particles.count(particle_kind::boundary), 2 * x * y + 2 * z * y + x * z);

@@ -10,8 +10,7 @@ namespace pairsum {
 namespace {
 
 using namespace test_kit;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
-                 inf = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
 
 class check_input_test : public testing::Test {
  protected:

@@ -9,14 +9,13 @@ template <>
 struct Arbitrary<pairsum::test_kit::cloud> {
   static Gen<pairsum::test_kit::cloud> arbitrary() {
     using pairsum::test_kit::cloud;
-    return gen::build<cloud>(
-        gen::set(&cloud::form, gen::elementOf(pairsum::test_kit::shapes)),
-        gen::set(&cloud::fluid, gen::inRange(0u, 200u)),
-        gen::set(&cloud::boundary, gen::inRange(0u, 100u)),
-        gen::set(&cloud::length, gen::element(0.4, 1.0, 2.5, 4.0, 7.3, 20.0)),
-        gen::set(&cloud::corner, gen::element(0.0, -0.5, 3.7, -1e3, 1e6, -1e9)),
-        gen::set(&cloud::H, gen::element(0.1, 1.0, 0.01188, 50.0)),
-        gen::set(&cloud::M, gen::inRange(2, 6)), gen::set(&cloud::seed, gen::inRange(1, 1000000)));
+    return gen::build<cloud>(gen::set(&cloud::form, gen::elementOf(pairsum::test_kit::shapes)),
+                             gen::set(&cloud::fluid, gen::inRange(0u, 200u)),
+                             gen::set(&cloud::boundary, gen::inRange(0u, 100u)),
+                             gen::set(&cloud::length, gen::element(0.4, 1.0, 2.5, 4.0, 7.3, 20.0)),
+                             gen::set(&cloud::corner, gen::element(0.0, -0.5, 3.7, -1e3, 1e6, -1e9)),
+                             gen::set(&cloud::H, gen::element(0.1, 1.0, 0.01188, 50.0)),
+                             gen::set(&cloud::M, gen::inRange(2, 6)), gen::set(&cloud::seed, gen::inRange(1, 1000000)));
   }
 };
 }  // namespace rc
@@ -36,8 +35,7 @@ class clouds_test : public testing::TestWithParam<std::string> {
       workers w(sum->traits().threads, threads);
       sum->load(s.particles, shuffled(s.particles.size(), c.seed));
       sum->evaluate(w.get());
-      const auto expected =
-          registry::instance().make_reference(world)->brute_force(s.particles, team());
+      const auto expected = registry::instance().make_reference(world)->brute_force(s.particles, team());
       RC_ASSERT(disagreement(sum->rates(), expected) == "");
       const work_counts n = sum->count_work();
       RC_ASSERT(n.pairs_fluid_fluid == expected.pairs_fluid_fluid);

@@ -17,8 +17,7 @@ using order = std::vector<std::uint32_t>;
 order random_keys(std::size_t n, int bits, std::uint64_t seed) {
   const counter_random random(seed);
   order keys(n);
-  for (std::size_t k = 0; k < n; ++k)
-    keys[k] = static_cast<std::uint32_t>(random.bits(k) >> (64 - bits));
+  for (std::size_t k = 0; k < n; ++k) keys[k] = static_cast<std::uint32_t>(random.bits(k) >> (64 - bits));
   return keys;
 }
 
@@ -46,8 +45,7 @@ TEST_P(counting_sort_test, equals_stable_sort_for_every_team) {
     for (const runtime kind : {runtime::omp, runtime::tbb})
       for (const int threads : {1, 2, 3, 7}) {
         test_kit::workers w(kind, threads);
-        ASSERT_EQ(sorted(s, keys, bits, w.get()), expected)
-            << bits << " bits, " << name_of(kind) << " " << threads;
+        ASSERT_EQ(sorted(s, keys, bits, w.get()), expected) << bits << " bits, " << name_of(kind) << " " << threads;
       }
   }
 }
@@ -57,8 +55,7 @@ TEST(counting_sort, extreme_keys) {
   for (const int bits : {1, 11, 12, 22, 23, 30, 31, 32}) {
     const std::uint32_t last = static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1);
     const order keys{last, 0, last, 1, 0, last - 1, last};
-    EXPECT_EQ(sorted(s, keys, bits, team::omp(3)), by_the_standard_library(keys))
-        << bits << " bits";
+    EXPECT_EQ(sorted(s, keys, bits, team::omp(3)), by_the_standard_library(keys)) << bits << " bits";
   }
 }
 

@@ -73,8 +73,7 @@ TEST(determinism, fingerprint_does_not_depend_on_the_order_of_memory) {
   sum->evaluate(team());
   const auto expected = sum->fingerprint();
   std::vector<std::uint32_t> backwards;
-  for (auto i = static_cast<std::uint32_t>(s.particles.size()); i > 0; --i)
-    backwards.push_back(i - 1);
+  for (auto i = static_cast<std::uint32_t>(s.particles.size()); i > 0; --i) backwards.push_back(i - 1);
   sum->load(s.particles, backwards);
   sum->evaluate(team());
   EXPECT_EQ(sum->fingerprint(), expected);

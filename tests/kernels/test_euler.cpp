@@ -91,8 +91,7 @@ TEST_P(euler_test, an_interaction_without_dynamics_moves_nothing) {
 }
 
 TEST(integrators, unknown_name_lists_the_valid_ones) {
-  EXPECT_TRUE(says(error_of([] { (void)find_integrator("leapforg"); }),
-                   {"integrator", "leapforg", "euler"}));
+  EXPECT_TRUE(says(error_of([] { (void)find_integrator("leapforg"); }), {"integrator", "leapforg", "euler"}));
 }
 
 }  // namespace

@@ -10,8 +10,7 @@ using namespace test_kit;
 
 class few_particles_test : public testing::TestWithParam<std::string> {
  protected:
-  static std::unique_ptr<summation> sum_of(const scene& s,
-                                           const std::string& interaction = "ferrari09") {
+  static std::unique_ptr<summation> sum_of(const scene& s, const std::string& interaction = "ferrari09") {
     return evaluated(with(s.world, GetParam(), 3, interaction), s.particles, 7);
   }
   static scene some(std::uint32_t fluid, std::uint32_t boundary) {
@@ -68,8 +67,7 @@ TEST_P(few_particles_test, loads_replace_each_other) {
   const scene many = some(90, 40);
   const auto sum = registry::instance().make_summation(with(many.world, GetParam(), 3, "count"));
   workers w(sum->traits().threads, 2);
-  for (const auto& [fluid, boundary] :
-       {std::pair{90u, 40u}, {0u, 0u}, {3u, 2u}, {0u, 5u}, {90u, 40u}}) {
+  for (const auto& [fluid, boundary] : {std::pair{90u, 40u}, {0u, 0u}, {3u, 2u}, {0u, 5u}, {90u, 40u}}) {
     sum->load(some(fluid, boundary).particles, {});
     sum->evaluate(w.get());
     const rate_table rates = sum->rates();

@@ -16,9 +16,7 @@ template <int D, class R>
 long double integral(double H) {
   const wendland_c2<D, R> W(H);
   const long double pi = std::numbers::pi_v<long double>;
-  const auto shell = [&](long double r) {
-    return D == 1 ? 2 : D == 2 ? 2 * pi * r : 4 * pi * r * r;
-  };
+  const auto shell = [&](long double r) { return D == 1 ? 2 : D == 2 ? 2 * pi * r : 4 * pi * r * r; };
   const int n = 2000;  // Simpson
   long double sum = 0;
   for (int k = 0; k <= n; ++k) {
@@ -43,8 +41,7 @@ void slope_is_the_derivative(double H) {
   const double h = 1e-5 * H, scale = W.value(0.0) / (H * H);
   for (double q = 0.01; q < 0.99; q += 0.01) {
     const double r = q * H;
-    EXPECT_NEAR(W.slope_over_r(r) / scale, (W.value(r + h) - W.value(r - h)) / (2 * h) / r / scale,
-                1e-6);
+    EXPECT_NEAR(W.slope_over_r(r) / scale, (W.value(r + h) - W.value(r - h)) / (2 * h) / r / scale, 1e-6);
     EXPECT_LT(W.slope_over_r(r), 0);
     EXPECT_LT(W.value(r + h), W.value(r));
   }
@@ -82,8 +79,7 @@ TEST(tait, density_at_a_depth_gives_the_hydrostatic_pressure) {
   EXPECT_EQ(eos.density_at(0, 9.81), 1000);
   for (const double depth : {0.01, 0.3, 2.0}) {
     EXPECT_NEAR(eos.pressure(eos.density_at(depth, 9.81)), 1000 * 9.81 * depth, 1e-8);
-    EXPECT_DOUBLE_EQ(eos.density_at(depth, 9.81),
-                     1000 * std::pow(1000 * 9.81 * depth / 1e4 + 1, 1.0 / 7));
+    EXPECT_DOUBLE_EQ(eos.density_at(depth, 9.81), 1000 * std::pow(1000 * 9.81 * depth / 1e4 + 1, 1.0 / 7));
   }
 }
 
@@ -103,15 +99,13 @@ rates by_hand(const particle& i, const particle& j, double H) {
   double r = 0, v_dot_r = 0;
   for (int d = 0; d < 3; ++d) r += std::pow(i.x[d] - j.x[d], 2);
   r = std::sqrt(r);
-  const double q = r / H,
-               slope = -20 * 21 / (2 * std::numbers::pi * std::pow(H, 4)) * q * std::pow(1 - q, 3);
+  const double q = r / H, slope = -20 * 21 / (2 * std::numbers::pi * std::pow(H, 4)) * q * std::pow(1 - q, 3);
   std::array<double, 3> grad;
   for (int d = 0; d < 3; ++d) grad[d] = slope * (i.x[d] - j.x[d]) / r;
   for (int d = 0; d < 3; ++d) v_dot_r += (i.v[d] - j.v[d]) * grad[d];
   rates u;
   u.drho = j.m * (v_dot_r - std::max(c(i.rho), c(j.rho)) * slope * (j.rho - i.rho) / j.rho);
-  for (int d = 0; d < 3; ++d)
-    u.dv[d] = -j.m * (p(i.rho) / (i.rho * i.rho) + p(j.rho) / (j.rho * j.rho)) * grad[d];
+  for (int d = 0; d < 3; ++d) u.dv[d] = -j.m * (p(i.rho) / (i.rho * i.rho) + p(j.rho) / (j.rho * j.rho)) * grad[d];
   return u;
 }
 
@@ -123,9 +117,7 @@ class ferrari09_test : public testing::Test {
 
   static particle random_particle(std::uint64_t n, double reach) {
     const counter_random random(9);
-    const auto u = [&](std::uint64_t k, double a, double b) {
-      return random.uniform(10 * n + k, a, b);
-    };
+    const auto u = [&](std::uint64_t k, double a, double b) { return random.uniform(10 * n + k, a, b); };
     return {{u(0, 0, reach), u(1, 0, reach), u(2, 0, reach)},
             {u(3, -1, 1), u(4, -1, 1), u(5, -1, 1)},
             u(6, 950, 1050),
@@ -135,8 +127,7 @@ class ferrari09_test : public testing::Test {
     return {{a.x[0], a.x[1], a.x[2]}, {a.v[0], a.v[1], a.v[2]}, a.rho, a.m, 0};
   }
   static void expect_near(const formula::rates<double>& u, const rates& e) {
-    const double size =
-        std::abs(e.drho) + std::abs(e.dv[0]) + std::abs(e.dv[1]) + std::abs(e.dv[2]);
+    const double size = std::abs(e.drho) + std::abs(e.dv[0]) + std::abs(e.dv[1]) + std::abs(e.dv[2]);
     EXPECT_GT(size, 0);
     EXPECT_NEAR(u.drho, e.drho, 1e-11 * size);
     for (int d = 0; d < 3; ++d) EXPECT_NEAR(u.dv[d], e.dv[d], 1e-11 * size);
@@ -159,8 +150,7 @@ TEST_F(ferrari09_test, boundary_is_the_pair_with_the_mirrored_ghost) {
     particle ghost = a;
     for (int d = 0; d < 3; ++d) ghost.x[d] = 2 * b.x[d] - a.x[d], ghost.v[d] = 2 * b.v[d] - a.v[d];
     const vec<3, double> r = state(a).x - state(b).x;
-    expect_near(f.boundary(r, r.squaredNorm(), f.derive(state(a)), f.derive_boundary(state(b))),
-                by_hand(a, ghost, H));
+    expect_near(f.boundary(r, r.squaredNorm(), f.derive(state(a)), f.derive_boundary(state(b))), by_hand(a, ghost, H));
   }
 }
 

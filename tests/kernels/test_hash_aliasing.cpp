@@ -14,11 +14,9 @@ class hash_aliasing_test : public testing::TestWithParam<std::string> {
   void expect_agreement(const scene& s, std::uint64_t at_least) const {
     for (const char* interaction : {"ferrari09", "count"}) {
       const setup world = with(s.world, GetParam(), 2, interaction);
-      const auto expected =
-          registry::instance().make_reference(world)->brute_force(s.particles, some_threads());
+      const auto expected = registry::instance().make_reference(world)->brute_force(s.particles, some_threads());
       EXPECT_GE(expected.pairs_fluid_fluid, at_least);
-      EXPECT_EQ(disagreement(evaluated(world, s.particles, 3)->rates(), expected), "")
-          << interaction;
+      EXPECT_EQ(disagreement(evaluated(world, s.particles, 3)->rates(), expected), "") << interaction;
     }
   }
 };
@@ -47,8 +45,7 @@ TEST_P(hash_aliasing_test, row_of_clusters_on_the_same_cells) {
   expect_agreement(s, 1000);
   const auto sum = evaluated(with(s.world, GetParam(), 2), s.particles);
   EXPECT_LE(sum->count_work().cells_nonempty, 64u);
-  EXPECT_GT(sum->count_work().pairs_tested, 10 * sum->count_work().pairs_interacting())
-      << "far clusters share cells";
+  EXPECT_GT(sum->count_work().pairs_tested, 10 * sum->count_work().pairs_interacting()) << "far clusters share cells";
 }
 
 TEST_P(hash_aliasing_test, uniform_cloud_many_tori_long) {

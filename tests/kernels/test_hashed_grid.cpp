@@ -20,8 +20,7 @@ TEST(hashed_grid, refuses_M_outside_its_range) {
     const auto text = error_of([&] { hashed_grid<3, double>(unit, 0.1, M); });
     EXPECT_TRUE(says(text, {"M must be between 2 and 10 in 3D, is " + std::to_string(M)})) << text;
   }
-  EXPECT_TRUE(
-      says(error_of([] { hashed_grid<3, double>(unit, 0.1, 1); }), {"-1 and +1 are one cell"}));
+  EXPECT_TRUE(says(error_of([] { hashed_grid<3, double>(unit, 0.1, 1); }), {"-1 and +1 are one cell"}));
   const box<2, double> square{vec<2, double>(0, 0), vec<2, double>(1, 1)};
   const box<1, double> line{vec<1, double>(0), vec<1, double>(1)};
   EXPECT_TRUE(says(error_of([&] { hashed_grid<2, double>(square, 0.1, 16); }), {"2 and 15 in 2D"}));
@@ -32,8 +31,7 @@ TEST(hashed_grid, refuses_M_outside_its_range) {
 
 TEST(hashed_grid, refuses_M_through_the_registry) {
   const setup s = test_kit::make_scene("dam_break", 0.1, "rest").world;
-  const auto text =
-      error_of([&] { (void)registry::instance().make_summation(test_kit::with(s, "naive", 40)); });
+  const auto text = error_of([&] { (void)registry::instance().make_summation(test_kit::with(s, "naive", 40)); });
   EXPECT_TRUE(says(text, {"between 2 and 10", "40"})) << text;
 }
 

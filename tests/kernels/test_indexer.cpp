@@ -81,11 +81,9 @@ TEST_P(indexer_test, neighbours_and_colours_are_those_of_the_torus) {
     const key own = key_of(cell);
     ASSERT_EQ(c.colour[cell], (own[0] & 1) | (own[1] & 1) << 1 | (own[2] & 1) << 2);
     for (unsigned n = 0; n < 27; ++n) {
-      const key k{(own[0] + static_cast<int>(n % 3) - 1) & mask,
-                  (own[1] + static_cast<int>(n / 3 % 3) - 1) & mask,
+      const key k{(own[0] + static_cast<int>(n % 3) - 1) & mask, (own[1] + static_cast<int>(n / 3 % 3) - 1) & mask,
                   (own[2] + static_cast<int>(n / 9) - 1) & mask};
-      ASSERT_EQ(c.neighbour(cell, n), at.contains(k) ? at[k] : 0u)
-          << "cell " << cell << " code " << n;
+      ASSERT_EQ(c.neighbour(cell, n), at.contains(k) ? at[k] : 0u) << "cell " << cell << " code " << n;
     }
   }
 }
@@ -96,10 +94,8 @@ std::map<key, std::set<std::uint32_t>> contents(const indexed_scene& s) {
   const cells<3>& c = s.index.view();
   for (std::size_t cell = 1; cell < c.range.size(); ++cell) {
     const cell_range& r = c.range[cell];
-    for (auto i = r.fluid_begin; i < r.fluid_end; ++i)
-      found[s.cell_of(i)].insert(s.particles.id[i]);
-    for (auto i = r.boundary_begin; i < r.boundary_end; ++i)
-      found[s.cell_of(i)].insert(s.particles.id[i]);
+    for (auto i = r.fluid_begin; i < r.fluid_end; ++i) found[s.cell_of(i)].insert(s.particles.id[i]);
+    for (auto i = r.boundary_begin; i < r.boundary_end; ++i) found[s.cell_of(i)].insert(s.particles.id[i]);
   }
   return found;
 }
@@ -123,8 +119,7 @@ TEST_P(indexer_test, build_after_small_moves_equals_a_fresh_build) {
   EXPECT_EQ(c.neighbours.size(), fresh.index.view().neighbours.size());
   EXPECT_EQ(c.fluid_cells, fresh.index.view().fluid_cells);
   // cells are numbered by key, so the tables must agree (their entries 0..26 belong to no cell)
-  for (std::size_t n = 27; n < c.neighbours.size(); ++n)
-    ASSERT_EQ(c.neighbours[n], fresh.index.view().neighbours[n]);
+  for (std::size_t n = 27; n < c.neighbours.size(); ++n) ASSERT_EQ(c.neighbours[n], fresh.index.view().neighbours[n]);
 }
 
 TEST_P(indexer_test, is_identical_for_every_team) {

@@ -26,8 +26,7 @@ class lost_test : public testing::TestWithParam<std::string> {
     });
   }
 };
-INSTANTIATE_TEST_SUITE_P(backend, lost_test, testing::ValuesIn(backend_names()),
-                         [](const auto& i) { return i.param; });
+INSTANTIATE_TEST_SUITE_P(backend, lost_test, testing::ValuesIn(backend_names()), [](const auto& i) { return i.param; });
 
 TEST_P(lost_test, are_flagged_counted_and_not_summed) {
   const auto sum = evaluated(world, s.particles, 2);
@@ -51,8 +50,7 @@ TEST_P(lost_test, are_flagged_counted_and_not_summed) {
   }
   EXPECT_EQ(now.count(particle_kind::fluid), fluid - 4u);
   // The rest sums as if those four did not exist, bounds and all.
-  const auto expected =
-      registry::instance().make_reference(world)->brute_force(now, some_threads());
+  const auto expected = registry::instance().make_reference(world)->brute_force(now, some_threads());
   EXPECT_EQ(expected.ids.size(), fluid - 4u);
   EXPECT_EQ(disagreement(rates, expected), "");
 

@@ -21,8 +21,7 @@ struct momentum {
 /// Component d of the sum of m dv, and how far rounding may take it from 0: each rate lies within
 /// its expectation's bound of the exact rate, the exact m dv cancel, and this sum itself rounds n
 /// additions and products of |m dv|.
-momentum momentum_rate(const particle_table& p, const rate_table& rates, const expectation& e,
-                       std::size_t d) {
+momentum momentum_rate(const particle_table& p, const rate_table& rates, const expectation& e, std::size_t d) {
   momentum sum;
   long double size = 0;
   for (std::size_t k = 0; k < e.ids.size(); ++k) {
@@ -31,8 +30,7 @@ momentum momentum_rate(const particle_table& p, const rate_table& rates, const e
     sum.bound += m * e.bound[1 + d][k];
     size += std::abs(m * dv);
   }
-  sum.bound +=
-      static_cast<long double>(e.ids.size()) * std::numeric_limits<long double>::epsilon() * size;
+  sum.bound += static_cast<long double>(e.ids.size()) * std::numeric_limits<long double>::epsilon() * size;
   return sum;
 }
 
@@ -43,9 +41,7 @@ scene uneven_lattice() {
 }
 
 expectation expected(const scene& s) {
-  return registry::instance()
-      .make_reference(with(s.world, "naive", 4))
-      ->brute_force(s.particles, some_threads());
+  return registry::instance().make_reference(with(s.world, "naive", 4))->brute_force(s.particles, some_threads());
 }
 
 class momentum_test : public testing::TestWithParam<std::string> {};
@@ -88,12 +84,10 @@ TEST_P(momentum_test, boundary_acts_on_fluid_alone) {
   for (std::size_t i = 0; i < n; ++i) {
     bool touched = false;
     for (std::size_t b = n; b < s.particles.size() && !touched; ++b)
-      touched = std::hypot(s.particles.x[0][i] - s.particles.x[0][b],
-                           s.particles.x[1][i] - s.particles.x[1][b],
+      touched = std::hypot(s.particles.x[0][i] - s.particles.x[0][b], s.particles.x[1][i] - s.particles.x[1][b],
                            s.particles.x[2][i] - s.particles.x[2][b]) < reach;
     bool changed = false;
-    for (std::size_t c = 0; c < 4; ++c)
-      changed |= with_walls.columns[c][i] != without.columns[c][i];
+    for (std::size_t c = 0; c < 4; ++c) changed |= with_walls.columns[c][i] != without.columns[c][i];
     EXPECT_TRUE(touched || !changed) << "particle " << i << " is out of reach";
     near += touched && changed;
     far += !touched;

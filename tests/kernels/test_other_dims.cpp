@@ -28,8 +28,7 @@ class other_dims_test : public testing::Test {
   scene s;
 
   void make(const char* name, double dx) {
-    const initial_condition c =
-        make_case(name, {.dim = World::dim, .dx = dx, .state = "perturbed"});
+    const initial_condition c = make_case(name, {.dim = World::dim, .dx = dx, .state = "perturbed"});
     s.particles = c.particles;
     s.world.dim = World::dim;
     s.world.omega_low = c.omega_low;
@@ -59,8 +58,7 @@ class other_dims_test : public testing::Test {
     agrees<symmetric_omp, I>(e);
   }
 };
-using worlds = testing::Types<world<1, double>, world<2, double>, world<1, float>, world<2, float>,
-                              world<3, float>>;
+using worlds = testing::Types<world<1, double>, world<2, double>, world<1, float>, world<2, float>, world<3, float>>;
 TYPED_TEST_SUITE(other_dims_test, worlds);
 
 TYPED_TEST(other_dims_test, lattice_agrees_with_brute_force) {

@@ -10,11 +10,9 @@ namespace pairsum {
 namespace {
 
 // First outputs, computed outside this project (Python integers) from the documented definition.
-static_assert(counter_random(0).bits(0) == 0x568a9b0b1a2c05ec &&
-              counter_random(0).bits(1) == 0x44e5b8b147ef718b);
+static_assert(counter_random(0).bits(0) == 0x568a9b0b1a2c05ec && counter_random(0).bits(1) == 0x44e5b8b147ef718b);
 static_assert(counter_random(1).bits(0) == 0x6ec85f1f8547bc0c);
-static_assert(counter_random(1, 1).bits(0) == 0x5c5b2489b31beb7b &&
-              counter_random(1, 1).bits(1) == 0xe6c3d212b3317fcc);
+static_assert(counter_random(1, 1).bits(0) == 0x5c5b2489b31beb7b && counter_random(1, 1).bits(1) == 0xe6c3d212b3317fcc);
 static_assert(counter_random(~0ull, ~0ull).bits(~0ull) == 0x7ba8e05e958e39ce);
 static_assert(counter_random(1, 1).uniform(0) == 0.3607657276325963);
 static_assert(counter_random(1, 1).uniform(0, -1, 3) == -1 + 4 * 0.3607657276325963);
@@ -66,8 +64,7 @@ TEST(counter_random, seeds_streams_and_counters_differ) {
   EXPECT_EQ(seen.size(), 8000u);
   int flipped = 0;  // neighbouring counters differ in about half of their bits
   const counter_random random(1);
-  for (std::uint64_t k = 0; k < 1000; ++k)
-    flipped += std::popcount(random.bits(k) ^ random.bits(k + 1));
+  for (std::uint64_t k = 0; k < 1000; ++k) flipped += std::popcount(random.bits(k) ^ random.bits(k + 1));
   EXPECT_NEAR(flipped / 1000.0, 32, 1);
 }
 

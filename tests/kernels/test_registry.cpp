@@ -17,8 +17,8 @@ TEST(registry, lists_the_algorithms_of_the_talk_each_once) {
   const auto names = backend_names();
   const std::set<std::string> all(names.begin(), names.end());
   EXPECT_EQ(all.size(), names.size());
-  for (const char* name : {"naive", "naive_omp", "naive_tbb", "pair_list", "sphysics_sweep",
-                           "ppm_stencil", "symmetric", "symmetric_omp", "symmetric_tbb"})
+  for (const char* name : {"naive", "naive_omp", "naive_tbb", "pair_list", "sphysics_sweep", "ppm_stencil", "symmetric",
+                           "symmetric_omp", "symmetric_tbb"})
     EXPECT_TRUE(all.contains(name)) << name;
 }
 
@@ -40,8 +40,7 @@ TEST(registry, unknown_words_are_errors_that_list_the_valid_ones) {
   EXPECT_EQ(refusal(good), "");
   setup s = good;
   s.backend = "symetric";
-  EXPECT_TRUE(says(refusal(s), {"backend", "\"symetric\"", "naive, naive_omp", "symmetric_tbb"}))
-      << refusal(s);
+  EXPECT_TRUE(says(refusal(s), {"backend", "\"symetric\"", "naive, naive_omp", "symmetric_tbb"})) << refusal(s);
   s = good;
   s.interaction = "ferrari";
   EXPECT_TRUE(says(refusal(s), {"interaction", "\"ferrari\"", "ferrari09", "count"})) << refusal(s);
@@ -56,8 +55,7 @@ TEST(registry, unknown_words_are_errors_that_list_the_valid_ones) {
   EXPECT_TRUE(says(refusal(s), {"grid", "\"tree\"", "hashed_grid"})) << refusal(s);
   s = good;
   s.dim = 7;
-  EXPECT_TRUE(says(refusal(s), {"ferrari09/wendland_c2/7D/double", "was not built", "3D/double"}))
-      << refusal(s);
+  EXPECT_TRUE(says(refusal(s), {"ferrari09/wendland_c2/7D/double", "was not built", "3D/double"})) << refusal(s);
   EXPECT_NE(error_of([&] { (void)registry::instance().make_reference(s); }), "");
 }
 
@@ -72,8 +70,7 @@ TEST(registry, an_unavailable_backend_is_listed_and_says_what_it_needs) {
                    .accumulates = false},
                   "needs CUDA");
   EXPECT_EQ(r.backends().size(), 1u);
-  EXPECT_TRUE(
-      says(error_of([&] { (void)r.find_backend("cuda"); }), {"cuda", "unavailable", "needs CUDA"}));
+  EXPECT_TRUE(says(error_of([&] { (void)r.find_backend("cuda"); }), {"cuda", "unavailable", "needs CUDA"}));
 }
 
 }  // namespace

@@ -109,8 +109,7 @@ TEST(running_error, of_exact_inputs_and_exact_operations) {
   EXPECT_EQ((-two).e, 0);
   EXPECT_EQ(absolute(-two).v, 2.0f);
   EXPECT_EQ(maximum(two, tracked(1.0f)).v, 2.0f);
-  EXPECT_EQ(maximum(tracked(1.0f, 0.5), tracked(3.0f, 0.25)).e, 0.5)
-      << "either may be the larger one";
+  EXPECT_EQ(maximum(tracked(1.0f, 0.5), tracked(3.0f, 0.25)).e, 0.5) << "either may be the larger one";
   EXPECT_EQ(square_root(tracked(0.0f)).e, 0);
   EXPECT_EQ(square_root(tracked(0.0f, 4.0)).e, 2) << "the truth may be anything in [0, 4]";
   EXPECT_EQ(select(true, two, tracked(1.0f)).v, 2.0f);

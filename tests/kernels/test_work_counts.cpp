@@ -49,8 +49,7 @@ INSTANTIATE_TEST_SUITE_P(backend, work_counts_test, testing::ValuesIn(backend_na
 
 TEST_P(work_counts_test, are_those_of_the_cells) {
   const scene s = make_scene("dam_break", 0.05, "perturbed");
-  const auto oracle =
-      registry::instance().make_reference(s.world)->cell_search(s.particles, some_threads());
+  const auto oracle = registry::instance().make_reference(s.world)->cell_search(s.particles, some_threads());
   for (const int M : {2, 3, 4, 6}) {
     const work expected = by_hand(s, M);
     const auto sum = evaluated(with(s.world, GetParam(), M), s.particles, 2);

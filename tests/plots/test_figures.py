@@ -94,14 +94,54 @@ def test_ladder_shows_each_backend_at_its_best_m_sorted(made):
     figure = drawn_by(ladder, made)
     for name, axes in artists.panels(figure).items():
         state = "collapsed" if "collapsed" in name else "rest"
-        rows = [(entry["point"], entry["ns_per_pair"]) for entry in made["points"]
+        rows = [(entry["point"], entry["ns_per_pair_parts"]) for entry in made["points"]
                 if entry["point"]["state"] == state]
         threads = (lambda b: 1) if "1 thread" in name else (
             lambda b: max(p["threads"] for p, _ in rows if p["backend"] == b))
-        wanted = [min((ns, backend, p["M"]) for p, ns in rows if p["backend"] == backend
-                      and p["threads"] == threads(backend)) for backend in style.BACKENDS]
-        drawn = [(bars[0].get_width(), *bars.get_label().split(" M=")) for bars in axes.containers]
-        assert drawn == [(ns, backend, str(m)) for ns, backend, m in sorted(wanted)]
+        best = [min((ns["all"], backend, p["M"]) for p, ns in rows if p["backend"] == backend
+                    and p["threads"] == threads(backend)) for backend in style.BACKENDS]
+        by_name = {(p["backend"], p["M"]): ns for p, ns in rows
+                   if p["threads"] == threads(p["backend"])}
+        bars = [(some.get_label(), some[0].get_x(), some[0].get_width())
+                for some in axes.containers]
+        wanted = []
+        for _, backend, m in sorted(best):
+            left = 0
+            for part in ("prepare", "zero", "sum", "reduce"):
+                label = f"{backend} M={m}" if part == "sum" else f"{part} of {backend} M={m}"
+                length = by_name[backend, m][part]
+                wanted.append((label, pytest.approx(left), pytest.approx(length)))
+                left += length
+        assert bars == wanted
+        numbers = [[float(number) for number in text.get_text().strip(")").split(" (")]
+                   for text in axes.texts]
+        assert numbers == [pytest.approx([ns, by_name[backend, m]["sum"]], rel=6e-3)
+                           for ns, backend, m in sorted(best)]
+
+
+def test_ladder_counts_the_list_that_pair_list_prepares(two):
+    figure = ladder.draw(two)
+    axes = artists.panels(figure)["1 thread"]
+    names = [tick.get_text().split(",")[0] for tick in axes.get_yticklabels()]
+    best = {backend: min(entry["ns_per_pair"] for entry in two["points"]
+                         if entry["point"]["backend"] == backend) for backend in names}
+    assert best["pair_list"] < best["naive"]
+    assert names.index("pair_list") > names.index("naive")
+    assert figure.texts[0].get_text().replace("\n", " ") == (
+        "prepare + zero + sum + reduce, ns per interacting pair")
+    assert [text.get_text() for text in figure.legends[0].get_texts()][:4] == [
+        "prepare", "zero", "sum", "reduce"]
+
+
+def test_ladder_leaves_out_a_point_whose_parts_are_not_known(two):
+    for entry in two["points"]:
+        if entry["point"]["backend"] == "pair_list":
+            del entry["ns_per_pair_parts"]
+        if entry["point"]["backend"] == "ppm_stencil":
+            entry["ns_per_pair_parts"].update(reduce=None, all=None)
+    for axes in ladder.draw(two).axes:
+        names = {tick.get_text().split(",")[0] for tick in axes.get_yticklabels()}
+        assert names == set(style.BACKENDS) - {"pair_list", "ppm_stencil"}
 
 
 def test_a_backend_has_one_colour_in_all_figures(made):

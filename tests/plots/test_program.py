@@ -58,6 +58,7 @@ def test_nulls_are_left_out(run, two):
     two["speedup"][-1].update(speedup=None, efficiency=None, low=None, high=None)
     two["m_comparison"][0].update(total_s=None, pairs_tested=None)
     two["points"][0].update(ns_per_pair=None)
+    two["points"][0]["ns_per_pair_parts"].update(sum=None, all=None)
     two["points"][1]["phases"]["reduce_s"]["median"] = None
     two["environments"] = []
     done, out = run(two)
@@ -95,6 +96,7 @@ def test_bytes_are_refused(run, tmp_path):
     ("speedup", "threads", "2", "threads"), ("speedup", "threads", 0, "whole number"),
     ("speedup", "speedup", -1, "positive"), ("m_comparison", "M", True, "a number or null"),
     ("algorithm_speedup", "runtime", None, "expected text"),
+    ("points", "ns_per_pair_parts", {"prepare": 1.0}, 'no "zero"'),
     ("points", "study", ["a"], "not one word"), ("points", "phases", None, "phases"),
     ("points", "point", [], "not an object")])
 def test_a_wrong_value_is_refused_by_its_place(run, two, table, field, value, said):

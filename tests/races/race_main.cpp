@@ -36,8 +36,8 @@ void require_threads() {
     got = omp_get_num_threads();
   }
   if (got != threads)
-    throw error("OpenMP grants " + std::to_string(got) + " threads instead of " +
-                std::to_string(threads) + "; unset OMP_THREAD_LIMIT and OMP_DYNAMIC");
+    throw error("OpenMP grants " + std::to_string(got) + " threads instead of " + std::to_string(threads) +
+                "; unset OMP_THREAD_LIMIT and OMP_DYNAMIC");
 }
 
 int list() {
@@ -58,17 +58,14 @@ int main_of(int argc, char** argv) {
   const std::string_view mode = argc > 1 ? argv[1] : "", name = argc > 2 ? argv[2] : "";
   if (mode == "--list" && argc == 2) return list();
   if (mode == "--backend" && argc == 3) return run_all(find(library_backends(), name), all_trials);
-  if (mode == "--planted" && argc == 3)
-    return run_all(find(planted_backends(), name), planted_trials);
+  if (mode == "--planted" && argc == 3) return run_all(find(planted_backends(), name), planted_trials);
   throw error("usage: race_main --list | --backend NAME | --planted NAME");
 }
 
 }  // namespace
 }  // namespace pairsum::races
 
-int main(int argc, char** argv) try {
-  return pairsum::races::main_of(argc, argv);
-} catch (const std::exception& e) {
+int main(int argc, char** argv) try { return pairsum::races::main_of(argc, argv); } catch (const std::exception& e) {
   std::fprintf(stderr, "race_main: %s\n", e.what());
   return 2;
 }

@@ -44,12 +44,11 @@ void run(const contender& c, const trial& w, int threads) {
     says("integrate");
   };
   constexpr double dt = 0.01;  // s: a particle moves by about its spacing
-  for (int step = 0; step < w.steps; ++step)
-    euler::step(*summation, dt, start.gravity, evaluate, t);
+  for (int step = 0; step < w.steps; ++step) euler::step(*summation, dt, start.gravity, evaluate, t);
 
-  std::printf("race_main: %s %s M=%d: %zu fluid particles, %d threads, %d steps, %zu lost\n",
-              c.name.data(), w.case_name.c_str(), w.M, start.particles.count(particle_kind::fluid),
-              threads, w.steps, summation->lost());
+  std::printf("race_main: %s %s M=%d: %zu fluid particles, %d threads, %d steps, %zu lost\n", c.name.data(),
+              w.case_name.c_str(), w.M, start.particles.count(particle_kind::fluid), threads, w.steps,
+              summation->lost());
   std::fflush(stdout);
 }
 

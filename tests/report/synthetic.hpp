@@ -14,8 +14,7 @@ inline double disturbance(int repetition) {
   return factors[(repetition - 1) % 6];
 }
 
-inline sample step(const std::string& backend, int M, int threads, double sum_s, int repetition,
-                   int step) {
+inline sample step(const std::string& backend, int M, int threads, double sum_s, int repetition, int step) {
   sample s = example::measured();
   s.round = 1;
   s.slot = 1;
@@ -35,8 +34,8 @@ inline sample step(const std::string& backend, int M, int threads, double sum_s,
 }
 
 /// All repetitions, of two steps each, of a point.
-inline void write_point(row_writer& writer, const std::string& backend, int M, int threads,
-                        double sum_s, int repetitions = 6) {
+inline void write_point(row_writer& writer, const std::string& backend, int M, int threads, double sum_s,
+                        int repetitions = 6) {
   for (int repetition = 1; repetition <= repetitions; ++repetition)
     for (int i = 1; i <= 2; ++i) writer.write(step(backend, M, threads, sum_s, repetition, i));
 }

@@ -82,10 +82,40 @@ TEST_F(report, points_have_exact_medians_and_intervals) {
   EXPECT_NEAR(p["phases"]["total_s"]["median"].get<double>(), 2 * 0.3 * 1.05, 1e-15);
   EXPECT_TRUE(p["phases"]["reduce_s"]["median"].is_null());
   EXPECT_NEAR(p["ns_per_pair"].get<double>(), 0.3 * 1.05 * 1e9 / 2e6, 1e-9);
+  EXPECT_EQ(p["ns_per_pair_parts"]["sum"], p["ns_per_pair"]);
   EXPECT_EQ(p["useful_pair_ratio"], 0.25);
   EXPECT_EQ(p["work"]["cells_nonempty"], 100);
   EXPECT_EQ(p["peak_rss_bytes"], 123456789);
   EXPECT_EQ(p["fingerprint"], "fedcba9876543210");
+}
+
+TEST_F(report, parts_of_the_time_per_pair_are_medians_of_their_own) {
+  const std::vector<phases> times{{1.0, 0.25, 0.125, 2.00, 0.00, 1.0, 8.0},
+                                  {1.0, 0.50, 0.125, 1.00, 0.50, 1.0, 8.0},
+                                  {1.0, 0.75, 0.125, 1.25, 0.25, 1.0, 8.0}};
+  row_writer writer(rows_path());
+  writer.write(example::environment());
+  for (const char* backend : {"naive", "pair_list", "symmetric"})
+    for (int repetition = 1; repetition <= 3; ++repetition) {
+      sample s = synthetic::step(backend, 6, 1, 1.0, repetition, 1);
+      s.phases = times[static_cast<std::size_t>(repetition - 1)];
+      if (s.point.backend == "naive") s.work.reset();
+      if (s.point.backend == "symmetric" && repetition == 2) s.phases->reduce_s.reset();
+      writer.write(s);
+    }
+  const json s = make();
+  // 2 million pairs: 500 ns per second. All four take 2.375, 2.125 and 2.375 s.
+  const json list = only(s["points"], {{"backend", "pair_list"}});
+  EXPECT_EQ(list["ns_per_pair_parts"],
+            json({{"prepare", 250.0}, {"zero", 62.5}, {"sum", 625.0}, {"reduce", 125.0}, {"all", 1187.5}}));
+  EXPECT_EQ(list["ns_per_pair"], 625.0);
+  const json untimed = only(s["points"], {{"backend", "symmetric"}});
+  EXPECT_EQ(untimed["ns_per_pair_parts"],
+            json({{"prepare", 250.0}, {"zero", 62.5}, {"sum", 625.0}, {"reduce", nullptr}, {"all", nullptr}}));
+  const json uncounted = only(s["points"], {{"backend", "naive"}});
+  EXPECT_TRUE(uncounted["ns_per_pair"].is_null());
+  EXPECT_EQ(uncounted["ns_per_pair_parts"].size(), 5u);
+  for (const json& part : uncounted["ns_per_pair_parts"]) EXPECT_TRUE(part.is_null());
 }
 
 TEST_F(report, speedups_are_paired_and_name_their_base) {
@@ -156,10 +186,8 @@ TEST_F(report, caveats_are_said) {
   }
   const json s = make();
   EXPECT_TRUE(has_caveat(s, "more threads than cores: symmetric_tbb M=6 threads=4"));
-  EXPECT_TRUE(
-      has_caveat(s, "fewer than 6 repetitions, so no interval: symmetric_tbb M=6 threads=4"));
-  EXPECT_TRUE(
-      has_caveat(s, "no speedup, the base on 1 thread is missing: coloured_omp M=6 threads=2"));
+  EXPECT_TRUE(has_caveat(s, "fewer than 6 repetitions, so no interval: symmetric_tbb M=6 threads=4"));
+  EXPECT_TRUE(has_caveat(s, "no speedup, the base on 1 thread is missing: coloured_omp M=6 threads=2"));
   EXPECT_TRUE(has_caveat(s, "the base on 1 thread is missing: coloured_omp M=6 threads=2, naive_omp M=6 threads=2"));
   EXPECT_TRUE(has_caveat(s, "uncommitted changes"));
   EXPECT_TRUE(only(s["speedup"], {{"backend", "coloured_omp"}}).is_null());
@@ -247,12 +275,10 @@ TEST_F(report, points_of_different_problems_are_not_compared) {
 
 TEST_F(report, different_machines_and_builds_are_refused_unless_allowed) {
   write_all();
-  const std::vector<std::function<void(environment_row&)>> changes{[](environment_row& e) { e.host = "other"; },
-                                                                   [](environment_row& e) { e.cpu = "other"; },
-                                                                   [](environment_row& e) { e.compiler = "other"; },
-                                                                   [](environment_row& e) { e.flags = "other"; },
-                                                                   [](environment_row& e) { e.git = "other"; },
-                                                                   [](environment_row& e) { e.dirty = false; }};
+  const std::vector<std::function<void(environment_row&)>> changes{
+      [](environment_row& e) { e.host = "other"; },     [](environment_row& e) { e.cpu = "other"; },
+      [](environment_row& e) { e.compiler = "other"; }, [](environment_row& e) { e.flags = "other"; },
+      [](environment_row& e) { e.git = "other"; },      [](environment_row& e) { e.dirty = false; }};
   for (const auto& change : changes) {
     std::filesystem::remove(file("talk/second.jsonl"));
     environment_row e = example::environment();
@@ -271,8 +297,7 @@ TEST_F(report, different_machines_and_builds_are_refused_unless_allowed) {
     const json mixed = make(true);
     EXPECT_EQ(mixed["series"].size(), 2u);
     EXPECT_EQ(mixed["points"].size(), 10u);
-    EXPECT_TRUE(
-        has_caveat(mixed, "naive M=6 threads=1 (dam_break, rest, dx 0.00594, lattice, study"));
+    EXPECT_TRUE(has_caveat(mixed, "naive M=6 threads=1 (dam_break, rest, dx 0.00594, lattice, study"));
     EXPECT_TRUE(has_caveat(mixed, "rows of different machines or builds in one report"));
   }
 }

@@ -47,8 +47,7 @@ TEST_F(tables, fit_120_columns_and_say_what_they_show) {
         for (const int M : {6, 7})
           for (const int threads : {1, 2, 4, 8, 16}) {
             if (*runtime == '\0' && threads > 1) continue;
-            synthetic::write_point(writer, algorithm + std::string(runtime), M, threads,
-                                   12.5 / threads);
+            synthetic::write_point(writer, algorithm + std::string(runtime), M, threads, 12.5 / threads);
           }
   }
   const std::string text = make_report({path}, {file("summary.json"), false});

@@ -75,8 +75,6 @@ inline sample failed() {
   return s;
 }
 
-inline void_row voided() {
-  return void_row{"talk", "2026-11-22T15:30:02.5Z", 2, "the round was not finished"};
-}
+inline void_row voided() { return void_row{"talk", "2026-11-22T15:30:02.5Z", 2, "the round was not finished"}; }
 
 }  // namespace pairsum::harness::example

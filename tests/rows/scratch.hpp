@@ -17,8 +17,7 @@ class scratch : public ::testing::Test {
  protected:
   void SetUp() override {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("pairsum_" + std::to_string(::getpid()) + "_" + info->name());
+    folder_ = std::filesystem::temp_directory_path() / ("pairsum_" + std::to_string(::getpid()) + "_" + info->name());
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

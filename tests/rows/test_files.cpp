@@ -123,9 +123,7 @@ TEST_F(rows_files, a_killed_writer_leaves_whole_rows) {
       ::_exit(1);
     }
   }
-  const auto grown = [&path] {
-    return std::filesystem::exists(path) && std::filesystem::file_size(path) > 20000;
-  };
+  const auto grown = [&path] { return std::filesystem::exists(path) && std::filesystem::file_size(path) > 20000; };
   for (int i = 0; i < 10000 && !grown(); ++i) ::usleep(1000);
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
@@ -140,8 +138,7 @@ TEST_F(rows_files, wrong_rows_name_file_line_and_key) {
   EXPECT_EQ(message_of([&] { read_rows(wrong); }),
             wrong.string() + ":5: key \"phases.sum_s\" should be a number or null, is a string");
   const auto garbage = put("garbage.jsonl", get(path) + "oops\n" + get(path));
-  EXPECT_EQ(message_of([&] { read_rows(garbage); }),
-            garbage.string() + ":5: it is no whole JSON value");
+  EXPECT_EQ(message_of([&] { read_rows(garbage); }), garbage.string() + ":5: it is no whole JSON value");
   bad["phases"]["sum_s"] = 1;
   std::string huge = bad.dump();
   huge.replace(huge.find("0.00594"), 7, "1e99999");
@@ -151,19 +148,16 @@ TEST_F(rows_files, wrong_rows_name_file_line_and_key) {
 
 TEST_F(rows_files, a_sample_needs_its_environment_row_before_it) {
   const auto path = put("rows.jsonl", format_row(example::measured()) + "\n");
-  EXPECT_CONTAINS(message_of([&] { read_rows(path); }),
-                  "key \"environment\" should name an environment row before it");
+  EXPECT_CONTAINS(message_of([&] { read_rows(path); }), "key \"environment\" should name an environment row before it");
 }
 
 TEST_F(rows_files, files_that_are_no_rows_are_refused_in_one_line) {
-  const std::vector<std::string> foreign{"a,b,c\n1,2,3\n", "{\"a\":1}\n", "{\"a\":1}",
-                                         "[1,2]\n",        "\n",          "{\n  \"a\": 1\n}\n",
-                                         "{\"a\": [\n",    "text"};
+  const std::vector<std::string> foreign{"a,b,c\n1,2,3\n",     "{\"a\":1}\n", "{\"a\":1}", "[1,2]\n", "\n",
+                                         "{\n  \"a\": 1\n}\n", "{\"a\": [\n", "text"};
   for (const std::string& text : foreign) {
     const auto path = put("foreign", text);
     const std::string what = message_of([&] { read_rows(path); });
-    EXPECT_EQ(what.find(path.string() + ":1: this is no rows file: its first line should be"), 0u)
-        << what;
+    EXPECT_EQ(what.find(path.string() + ":1: this is no rows file: its first line should be"), 0u) << what;
     EXPECT_EQ(message_of([&] { row_writer writer(path); }), what);
     EXPECT_EQ(get(path), text);
   }
@@ -171,15 +165,13 @@ TEST_F(rows_files, files_that_are_no_rows_are_refused_in_one_line) {
   EXPECT_CONTAINS(message_of([&] { read_rows(file("none")); }), "No such file");
   EXPECT_CONTAINS(message_of([&] { read_rows(folder_); }), "is a folder");
   const auto other = put("other", "{\"schema\":\"pairsum.row/9\",\"kind\":\"void\"}\n");
-  EXPECT_EQ(
-      message_of([&] { read_rows(other); }),
-      other.string() + ":1: key \"schema\" should be \"pairsum.row/1\", is \"pairsum.row/9\"");
+  EXPECT_EQ(message_of([&] { read_rows(other); }),
+            other.string() + ":1: key \"schema\" should be \"pairsum.row/1\", is \"pairsum.row/9\"");
 }
 
 TEST_F(rows_files, places_that_cannot_be_written_are_refused_in_one_line) {
   const auto below = put("plain", "text") / "folder" / "rows.jsonl";
-  EXPECT_CONTAINS(message_of([&] { row_writer writer(below); }),
-                  "cannot write rows to " + below.string() + ": ");
+  EXPECT_CONTAINS(message_of([&] { row_writer writer(below); }), "cannot write rows to " + below.string() + ": ");
   const std::filesystem::path proc = "/proc/pairsum/rows.jsonl";
   EXPECT_CONTAINS(message_of([&] { row_writer writer(proc); }), "folder /proc/pairsum: ");
   EXPECT_CONTAINS(message_of([&] { row_writer writer(folder_); }), "is a folder");

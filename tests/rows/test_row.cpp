@@ -76,8 +76,7 @@ TEST(row, every_missing_key_is_named) {
   const json whole = json::parse(format_row(example::measured()));
   for (const auto& item : whole.items()) {
     const std::string key = item.key();
-    EXPECT_CONTAINS(rejection(example::measured(), [&](json& j) { j.erase(key); }),
-                    "key \"" + key + "\" is missing");
+    EXPECT_CONTAINS(rejection(example::measured(), [&](json& j) { j.erase(key); }), "key \"" + key + "\" is missing");
     if (!item.value().is_object()) continue;
     for (const auto& inner : item.value().items()) {
       const std::string inner_key = inner.key();
@@ -95,14 +94,13 @@ TEST(row, every_missing_key_is_named) {
 }
 
 TEST(row, every_key_of_another_type_is_named) {
-  for (const row& value : {row(example::measured()), row(example::environment()),
-                           row(example::voided()), row(example::failed())}) {
+  for (const row& value :
+       {row(example::measured()), row(example::environment()), row(example::voided()), row(example::failed())}) {
     const json whole = json::parse(format_row(value));
     for (const auto& item : whole.items()) {
       const std::string key = item.key();
       const json wrong = item.value().is_string() ? json(1.5) : json("text");
-      EXPECT_CONTAINS(rejection(value, [&](json& j) { j[key] = wrong; }),
-                      "key \"" + key + "\" should be ");
+      EXPECT_CONTAINS(rejection(value, [&](json& j) { j[key] = wrong; }), "key \"" + key + "\" should be ");
       if (!item.value().is_object()) continue;
       for (const auto& inner : item.value().items()) {
         const std::string name = inner.key();
@@ -120,8 +118,7 @@ TEST(row, messages_say_what_is_right_and_what_is_there) {
             "key \"phases.sum_s\" should be a number or null, is a string");
   EXPECT_EQ(rejection(s, [](json& j) { j["phases"]["sum_s"] = -1; }),
             "key \"phases.sum_s\" should be a number >= 0 or null, is the number -1");
-  EXPECT_EQ(rejection(s, [](json& j) { j["round"] = 0; }),
-            "key \"round\" should be an integer >= 1, is the number 0");
+  EXPECT_EQ(rejection(s, [](json& j) { j["round"] = 0; }), "key \"round\" should be an integer >= 1, is the number 0");
   EXPECT_EQ(rejection(s, [](json& j) { j["step"] = 1.5; }),
             "key \"step\" should be an integer >= 1, is the number 1.5");
   EXPECT_EQ(rejection(s, [](json& j) { j["work"]["cells"] = -3; }),
