@@ -112,7 +112,6 @@ if $quick; then
 else
   first_study="talk"
 fi
-folder=$results/$first_study/$stem # of tables and figures
 
 files=() # rows files of this run
 # written: those that hold a measurement.
@@ -180,15 +179,23 @@ fi
 mapfile -t found < <(written)
 ((${#found[@]} > 0)) || stop 4 "nothing was measured within $limit s (a larger --limit helps)"
 heading "tables"
-mkdir -p "$folder"
-step "the report" "$program" report "${found[@]}" --summary "$folder/summary.json" >"$folder/tables.txt"
-cat "$folder/tables.txt"
+for file in "${found[@]}"; do # one folder per study, named like its rows
+  folder=${file%.jsonl}
+  mkdir -p "$folder"
+  step "the report" "$program" report "$file" --summary "$folder/summary.json" >"$folder/tables.txt"
+  cat "$folder/tables.txt"
+done
 heading "figures"
 export PYTHONDONTWRITEBYTECODE=1
-step "drawing the figures" "$PYTHON" plots/plot.py "$folder/summary.json" --out "$folder"
+for file in "${found[@]}"; do
+  step "drawing the figures" "$PYTHON" plots/plot.py "${file%.jsonl}/summary.json" --out "${file%.jsonl}"
+done
 
 heading "done"
-for file in "${found[@]}"; do say "rows:    $(shown "$file")"; done
-say "tables:  $(shown "$folder/tables.txt")"
-say "summary: $(shown "$folder/summary.json")"
-say "figures: $(shown "$folder")/*.svg, *.png"
+for file in "${found[@]}"; do
+  folder=$(shown "${file%.jsonl}")
+  say "rows:    $(shown "$file")"
+  say "tables:  $folder/tables.txt"
+  say "summary: $folder/summary.json"
+  say "figures: $folder/*.svg, *.png"
+done

@@ -37,8 +37,9 @@ def draw(summary):
         for (_, rows), axes in zip(columns, axes_of_group):
             _panel(axes, rows, names)
         right = max(axes.get_xlim()[1] for axes in axes_of_group)
-        for axes in axes_of_group:
-            axes.set_xlim(0, right)
+        for axes in axes_of_group:  # one scale, unless a panel would be too small to read
+            own_right = axes.get_xlim()[1]
+            axes.set_xlim(0, right if own_right > right / 5 else own_right)
     handles = [Patch(facecolor=colour, label=name)
                for _, name, colour in style.PHASES]
     mark = page.figure.axes[0].plot([], [], color=style.INK, marker="|", linestyle="",
