@@ -26,8 +26,8 @@ struct dam_break {
     if (!(per_axis >= 3)) throw error("dam_break needs dx <= 0.17 m (three particles an axis), is " + number_text(dx));
     const double plate = dx / 1.5;
     const double estimate = std::pow(per_axis, c.dim) + (c.dim == 3 ? 16 / (plate * plate) : 7 / plate);
-    check_memory(estimate * bytes_per_particle, "dam_break with dx = " + number_text(dx), "a larger dx takes less");
     if (estimate > 4e9) throw error("dam_break with dx = " + number_text(dx) + " has more than 2^32 particles");
+    check_memory(estimate * bytes_per_particle, "dam_break with dx = " + number_text(dx), "a larger dx takes less");
     initial_condition made;
     made.particles = particle_table(c.dim);
     made.omega_low.assign(c.dim, 0.0);

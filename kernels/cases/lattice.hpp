@@ -19,10 +19,10 @@ struct lattice {
     if (c.dim < 1 || c.dim > 3) throw error("lattice exists in 1D, 2D and 3D, not in " + std::to_string(c.dim) + "D");
     if (!(c.dx <= 1)) throw error("lattice needs dx <= 1 m, is " + number_text(c.dx));
     const double per_axis = std::round(1 / c.dx);
-    check_memory(std::pow(per_axis, c.dim) * bytes_per_particle, "lattice with dx = " + number_text(c.dx),
-                 "a larger dx takes less");
     if (std::pow(per_axis, c.dim) > 4e9)
       throw error("lattice with dx = " + number_text(c.dx) + " has more than 2^32 particles");
+    check_memory(std::pow(per_axis, c.dim) * bytes_per_particle, "lattice with dx = " + number_text(c.dx),
+                 "a larger dx takes less");
     const auto n = static_cast<std::size_t>(per_axis);
     initial_condition made;
     made.omega_low.assign(c.dim, 0.0);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/memory.hpp"
 #include "core/random.hpp"
 #include "scene.hpp"
 
@@ -37,7 +38,13 @@ TEST(hashed_grid, refuses_M_through_the_registry) {
 
 TEST(zero_table, refuses_what_memory_cannot_hold) {
   const auto text = error_of([] { zero_table(std::size_t{1} << 50, "the table of the test"); });
-  EXPECT_TRUE(says(text, {"the table of the test", "MiB", "smaller M"})) << text;
+  EXPECT_TRUE(says(text, {"the table of the test", "GiB of memory", "smaller M"})) << text;
+}
+
+TEST(check_memory, refuses_more_than_the_machine_has_and_nothing_less) {
+  EXPECT_TRUE(says(error_of([] { check_memory(1e18, "a case", "a larger dx takes less"); }),
+                   {"a case would take", "this machine has", "a larger dx"}));
+  EXPECT_EQ(error_of([] { check_memory(1 << 20, "a case", "advice"); }), "");
 }
 
 TEST(zero_table, is_zero_and_moves) {
