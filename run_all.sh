@@ -63,7 +63,7 @@ else
   memory_mb=2000 disk_mb=1000
   dx=0.00594
 fi
-program=build/release/bin/pairsum
+program=build/study/bin/pairsum
 
 shown() { realpath -m --relative-base="$called_from" -- "$1"; }
 
@@ -88,14 +88,14 @@ deadline=$((SECONDS + limit - reserve)) # for measuring
 
 # ---- build
 heading "build"
-step "configuring the build" cmake --preset release
-step "the build" cmake --build --preset release --target pairsum --parallel "${jobs:-$(jobs_for 1000)}"
+step "configuring the build" cmake --preset study
+step "the build" cmake --build --preset study --target pairsum --parallel "${jobs:-$(jobs_for 1000)}"
 [[ -x $program ]] || stop 4 "the build made no $program"
 
 # ---- verify
 heading "verify: every algorithm against the reference, on a small case"
-verified=build/release/verify.txt status=0
-in_background "$program" verify --case dam_break --dx 0.05 --state perturbed >"$verified" || status=$?
+verified=build/study/verify.txt status=0
+in_background "$program" verify --case dam_break --dx 0.05 --state perturbed --each >"$verified" || status=$?
 if ((status != 0)); then
   cat "$verified"
   stop "$status" "the verification failed (exit $status)"

@@ -10,7 +10,7 @@ usage() {
   cat <<'TEXT'
 usage: ./run_tests.sh [--no-install] [--jobs N] [--limit SECONDS]
 
-Installs the missing Debian packages, builds preset dev and runs every test. The last lines are ctest's
+Installs the missing Debian packages, builds preset test and runs every test. The last lines are ctest's
 summary, the exit code is ctest's (0: all passed).
 
   --no-install     do not look for missing packages
@@ -55,14 +55,14 @@ choose_python pytest jsonschema numpy matplotlib || exit
 command -v cmake >/dev/null || stop "$exit_missing" "cmake is not installed (run without --no-install)"
 
 heading "build"
-step "configuring the build" cmake --preset dev -DPython3_EXECUTABLE="$PYTHON" -DPAIRSUM_TEST_PYTHON="$PYTHON"
-step "the build" cmake --build --preset dev --parallel "${jobs:-$(jobs_for 1500)}"
+step "configuring the build" cmake --preset test -DPython3_EXECUTABLE="$PYTHON" -DPAIRSUM_TEST_PYTHON="$PYTHON"
+step "the build" cmake --build --preset test --parallel "${jobs:-$(jobs_for 1500)}"
 
 heading "tests"
 left=$((limit - SECONDS))
 ((left > 0)) || stop 4 "the build took all of the $limit s, no test was run"
 stop_time=$(date -d "now + $left seconds" +%H:%M:%S)
 status=0
-in_background ctest --preset dev --no-tests=error --parallel "${jobs:-$(jobs_for 2000)}" \
+in_background ctest --preset test --no-tests=error --parallel "${jobs:-$(jobs_for 2000)}" \
   --stop-time "$stop_time" || status=$?
 exit "$status"

@@ -1,5 +1,5 @@
 # What the library is made of: one word a line, the name of a file in the folder of that kind. To add one, add its file and its word.
-set(PAIRSUM_BACKENDS
+set(PAIRSUM_ALL_BACKENDS
   naive
   naive_omp
   naive_tbb
@@ -10,19 +10,29 @@ set(PAIRSUM_BACKENDS
   symmetric_omp
   symmetric_tbb
 )
-set(PAIRSUM_INTERACTIONS
+set(PAIRSUM_ALL_SMOOTHED_INTERACTIONS  # those that take a smoothing kernel
   ferrari09
+  monaghan94
 )
-set(PAIRSUM_PLAIN_INTERACTIONS  # those that use no smoothing kernel
+set(PAIRSUM_ALL_PLAIN_INTERACTIONS  # those that use none
   count
 )
-set(PAIRSUM_SMOOTHINGS
+set(PAIRSUM_ALL_SMOOTHINGS
   wendland_c2
+  wendland_c4
+  wendland_c6
+  cubic_spline
+  gaussian
 )
-set(PAIRSUM_CASES
+set(PAIRSUM_ALL_CASES
   dam_break
   lattice
+  random_uniform
+  random_clustered
 )
-set(PAIRSUM_INTEGRATORS
+set(PAIRSUM_ALL_INTEGRATORS
   euler
+  rk2
+  rk4
+  predictor_corrector
 )

@@ -33,6 +33,9 @@ nlohmann::json as_json() {
          {"symmetric", b.traits.symmetric},
          {"deterministic", b.traits.deterministic},
          {"unavailable", b.unavailable.empty() ? nlohmann::json() : nlohmann::json(b.unavailable)}});
+  all["unavailable"] = nlohmann::json::array();
+  for (const missing_word& m : r.missing())
+    all["unavailable"].push_back({{"kind", m.kind}, {"word", m.word}, {"option", m.option}});
   for (const case_entry& c : case_entries()) all["cases"].push_back({{"name", c.name}, {"description", c.description}});
   for (const integrator_entry& i : integrator_entries())
     all["integrators"].push_back({{"name", i.name}, {"description", i.description}});
@@ -48,11 +51,13 @@ void print_text() {
                b.unavailable.empty() ? "" : "  [unavailable: " + b.unavailable + "]");
   }
   fmt::print("cases\n");
-  for (const case_entry& c : case_entries()) fmt::print("  {:<16}{}\n", c.name, c.description);
+  for (const case_entry& c : case_entries()) fmt::print("  {:<20} {}\n", c.name, c.description);
   fmt::print("integrators\n");
-  for (const integrator_entry& i : integrator_entries()) fmt::print("  {:<16}{}\n", i.name, i.description);
+  for (const integrator_entry& i : integrator_entries()) fmt::print("  {:<20} {}\n", i.name, i.description);
   std::vector<std::string> dims;
   for (const int d : r.dims()) dims.push_back(fmt::format("{}D", d));
+  for (const missing_word& m : r.missing())
+    fmt::print("unavailable       {} {}: not in this build, configure with -D{}=all\n", m.kind, m.word, m.option);
   fmt::print(
       "interactions      {}\nsmoothing kernels {}\nprecisions        {}\ndimensions        {}\ngrids             {}\n"
       "orders of memory  {}\nstates            {}\n",

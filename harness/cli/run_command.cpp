@@ -14,7 +14,9 @@ namespace {
 
 struct run_options {
   run_request request;
-  std::string dx = "0.02", state = "rest", backend = "naive_omp,symmetric_omp", M = "6,7", threads = "all";
+  std::string dx = "0.02", state = "rest", backend = "naive_omp,symmetric_omp", M = "6,7", threads = "all",
+              order = "lattice", precision = "double", interaction = "ferrari09", smoothing = "wendland_c2",
+              integrator = "euler";
   std::string out, results = "results";
   bool out_given = false;
 };
@@ -26,6 +28,11 @@ int start(const run_options& o) {
   r.backends = parse_words("--backend", o.backend);
   r.M = parse_counts("--M", o.M, 0);
   r.threads = parse_counts("--threads", o.threads, usable_cores());
+  r.orders = parse_words("--order", o.order);
+  r.precisions = parse_words("--precision", o.precision);
+  r.interactions = parse_words("--interaction", o.interaction);
+  r.smoothings = parse_words("--smoothing", o.smoothing);
+  r.integrators = parse_words("--integrator", o.integrator);
   check_request(r);
   if (o.out_given && o.out.empty()) throw error("--out takes the name of a file, not \"\"");
   const std::filesystem::path path =
@@ -62,13 +69,13 @@ void add_run_command(CLI::App& app, action& chosen) {
       ->capture_default_str();
   command->add_option("--dim", r.dim, "dimension")->capture_default_str();
   command->add_option("--H", r.H, "support radius in m (0: 2 dx)")->capture_default_str();
-  command->add_option("--precision", r.precision, "working precision")->capture_default_str();
-  command->add_option("--interaction", r.interaction, "pair interaction")->capture_default_str();
-  command->add_option("--smoothing", r.smoothing, "smoothing kernel")->capture_default_str();
-  command->add_option("--integrator", r.integrator, "time stepping")->capture_default_str();
+  command->add_option("--precision", o->precision, "working precisions, a list")->capture_default_str();
+  command->add_option("--interaction", o->interaction, "pair interactions, a list")->capture_default_str();
+  command->add_option("--smoothing", o->smoothing, "smoothing kernels, a list")->capture_default_str();
+  command->add_option("--integrator", o->integrator, "time stepping, a list")->capture_default_str();
   command->add_option("--dt", r.dt, "time step in s")->capture_default_str();
   command->add_option("--grid", r.grid, "grid")->capture_default_str();
-  command->add_option("--order", r.order, "order of memory at the start: lattice, shuffled, morton")
+  command->add_option("--order", o->order, "orders of memory at the start, a list: lattice, shuffled, morton")
       ->capture_default_str();
   command->add_option("--outside", r.outside, "particles outside Omega: error or drop")->capture_default_str();
   command->add_option("--seed", r.seed, "of the perturbation and of the order of measuring")->capture_default_str();

@@ -15,57 +15,112 @@ namespace {
 
 struct verify_options {
   run_request request;
-  std::string dx = "0.04", state = "perturbed", backend = "all", interaction = "all", M = "2,3,6,7",
-              threads = "1,2,3,7";
+  std::string case_name, dx, state = "perturbed", dim = "all", precision = "all", interaction = "all",
+                             smoothing = "all", backend = "all", M = "2,3,6,7", threads = "1,2,3,7";
+  bool each = false;
 };
 
-int verify(verify_options o) {
+/// The words of an option; "all" stands for `every`.
+std::vector<std::string> words_or_all(const std::string& option, const std::string& text,
+                                      std::vector<std::string> every) {
+  return text == "all" ? every : parse_words(option, text);
+}
+
+/// Prints one line per formula, or per sum, as they are made.
+class lines_printer {
+ public:
+  lines_printer(int dim, bool each) : dim_(dim), each_(each) {}
+  ~lines_printer() { close(); }
+
+  void add(const verify_line& l) {
+    const std::string formula = fmt::format("{}D  {:<8}{:<12}{:<14}", dim_, l.precision, l.interaction, l.smoothing);
+    if (formula != formula_) close();
+    formula_ = formula;
+    ++made;
+    ++here_;
+    failed += !l.ok;
+    failed_here_ += !l.ok;
+    if (l.share >= worst_) worst_ = l.share, worst_backend_ = l.backend;
+    if (each_ || !l.ok)
+      fmt::print("{}{:<16}M={:<3}threads={:<4}{}\n", formula, l.backend, l.M, l.threads,
+                 l.ok ? fmt::format("{:.3g}", l.share) : "FAILED: " + l.error);
+    std::fflush(stdout);
+  }
+
+  std::size_t made = 0, failed = 0;
+
+ private:
+  void close() {
+    if (here_ > 0 && !each_)
+      fmt::print("{}{:>5} sums   {}\n", formula_, here_,
+                 failed_here_ > 0 ? fmt::format("{} FAILED", failed_here_)
+                 : worst_ > 0     ? fmt::format("{:.3g} ({})", worst_, worst_backend_)
+                                  : "exact");
+    std::fflush(stdout);
+    here_ = failed_here_ = 0;
+    worst_ = 0;
+  }
+
+  int dim_;
+  bool each_;
+  std::string formula_, worst_backend_;
+  std::size_t here_ = 0, failed_here_ = 0;
+  double worst_ = 0;
+};
+
+/// A case that exists in that dimension, and a spacing for about 3000 fluid particles.
+void fill_in_defaults(run_request& q, const verify_options& o) {
+  q.case_name = !o.case_name.empty() ? o.case_name : q.dim == 1 ? "lattice" : "dam_break";
+  if (o.dx.empty()) q.dx = {q.dim == 1 ? 0.0005 : q.dim == 2 ? 0.01 : 0.04};
+}
+
+int verify(const verify_options& o) {
   const registry& r = registry::instance();
-  run_request& q = o.request;
-  q.dx = parse_numbers("--dx", o.dx);
+  run_request q = o.request;
+  if (!o.dx.empty()) q.dx = parse_numbers("--dx", o.dx);
   q.states = parse_words("--state", o.state);
   q.M = parse_counts("--M", o.M, 0);
   q.threads = parse_counts("--threads", o.threads, usable_cores());
-  verify_plan plan;
-  if (o.backend == "all")
-    for (const backend_entry& b : r.backends()) {
-      if (b.unavailable.empty()) plan.backends.emplace_back(b.traits.name);
-    }
-  else
-    plan.backends = parse_words("--backend", o.backend);
-  q.backends = plan.backends;
-  plan.interactions = o.interaction == "all" ? r.interactions() : parse_words("--interaction", o.interaction);
-  for (const std::string& i : plan.interactions) {
-    q.interaction = i;
+  std::vector<std::string> usable;
+  for (const backend_entry& b : r.backends())
+    if (b.unavailable.empty()) usable.emplace_back(b.traits.name);
+  q.backends = words_or_all("--backend", o.backend, usable);
+  q.precisions = words_or_all("--precision", o.precision, r.precisions());
+  q.interactions = words_or_all("--interaction", o.interaction, r.interactions());
+  q.smoothings = words_or_all("--smoothing", o.smoothing, r.smoothings());
+  const std::vector<int> dims = o.dim == "all" ? r.dims() : parse_counts("--dim", o.dim, 0);
+  for (const int dim : dims) {
+    q.dim = dim;
+    fill_in_defaults(q, o);
     check_request(q);
   }
+  keep_freed_memory();
+  verify_plan plan;
+  plan.base.grid = q.grid;
+  plan.precisions = q.precisions;
+  plan.interactions = q.interactions;
+  plan.smoothings = q.smoothings.empty() ? std::vector<std::string>{"none"} : q.smoothings;
+  plan.backends = q.backends;
   plan.M = q.M;
   plan.threads = q.threads;
-  plan.base.smoothing = q.smoothing;
-  plan.base.precision = q.precision;
-  plan.base.grid = q.grid;
-  plan.base.dim = q.dim;
-  keep_freed_memory();
-  bool ok = true;
-  std::size_t lines = 0, failed = 0;
-  for (const double dx : q.dx)
-    for (const std::string& state : q.states) {
-      const initial_condition c = make_case(q.case_name, {q.dim, dx, q.H, state, q.seed});
-      fmt::print("{} dx={} {}: {} fluid, {} boundary particles\n", q.case_name, dx, state,
-                 c.particles.count(particle_kind::fluid), c.particles.count(particle_kind::boundary));
-      fmt::print("{:<12}{:<16}{:>4}{:>9}   {}\n", "interaction", "backend", "M", "threads", "largest error / bound");
-      ok = verify_all(r, c, plan,
-                      [&](const verify_line& l) {
-                        ++lines;
-                        failed += !l.ok;
-                        fmt::print("{:<12}{:<16}{:>4}{:>9}   {}\n", l.interaction, l.backend, l.M, l.threads,
-                                   l.ok ? fmt::format("{:.3g}", l.share) : "FAILED: " + l.error);
-                        std::fflush(stdout);
-                      }) &&
-           ok;
-    }
-  fmt::print("{} of {} sums agree with the reference\n", lines - failed, lines);
-  return ok ? 0 : 1;
+  std::size_t made = 0, failed = 0;
+  for (const int dim : dims) {
+    q.dim = dim;
+    fill_in_defaults(q, o);
+    for (const double dx : q.dx)
+      for (const std::string& state : q.states) {
+        const initial_condition c = make_case(q.case_name, {dim, dx, q.H, state, q.seed});
+        fmt::print("{} {}D dx={} {}: {} fluid, {} boundary particles; largest error in units of its bound\n",
+                   q.case_name, dim, dx, state, c.particles.count(particle_kind::fluid),
+                   c.particles.count(particle_kind::boundary));
+        lines_printer lines(dim, o.each);
+        verify_all(r, c, plan, [&](const verify_line& l) { lines.add(l); });
+        made += lines.made;
+        failed += lines.failed;
+      }
+  }
+  fmt::print("{} of {} sums agree with the reference\n", made - failed, made);
+  return failed == 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -73,21 +128,22 @@ int verify(verify_options o) {
 void add_verify_command(CLI::App& app, action& chosen) {
   CLI::App* const command = app.add_subcommand(
       "verify",
-      "Sums a case with every backend, M and number of threads, and compares each rate with a reference\n"
+      "Sums a case with every formula, backend, M and number of threads, and compares each rate with a reference\n"
       "that shares no grid, sort or loop with them. The bound comes from running error analysis of the formula.");
   const auto o = std::make_shared<verify_options>();
-  command->add_option("--case", o->request.case_name, "initial condition")->capture_default_str();
-  command->add_option("--dx", o->dx, "particle spacing in m, a list")->capture_default_str();
+  command->add_option("--case", o->case_name, "initial condition (default: dam_break, in 1D lattice)");
+  command->add_option("--dx", o->dx, "particle spacing in m, a list (default: about 3000 fluid particles)");
   command->add_option("--state", o->state, "rest, perturbed, or both; in rest many terms are zero")
       ->capture_default_str();
   command->add_option("--backend", o->backend, "backends, or all")->capture_default_str();
-  command->add_option("--interaction", o->interaction, "interactions, or all")->capture_default_str();
+  command->add_option("--interaction", o->interaction, "interactions, or all that are built")->capture_default_str();
   command->add_option("--M", o->M, "hash sizes, like 2,3 or 5..9")->capture_default_str();
   command->add_option("--threads", o->threads, "numbers of threads, or all")->capture_default_str();
-  command->add_option("--precision", o->request.precision, "working precision")->capture_default_str();
-  command->add_option("--smoothing", o->request.smoothing, "smoothing kernel")->capture_default_str();
-  command->add_option("--dim", o->request.dim, "dimension")->capture_default_str();
+  command->add_option("--precision", o->precision, "working precisions, or all that are built")->capture_default_str();
+  command->add_option("--smoothing", o->smoothing, "smoothing kernels, or all that are built")->capture_default_str();
+  command->add_option("--dim", o->dim, "dimensions, or all that are built")->capture_default_str();
   command->add_option("--seed", o->request.seed, "of the perturbation")->capture_default_str();
+  command->add_flag("--each", o->each, "a line per sum, not per formula");
   command->callback([&chosen, o] { chosen = [o] { return verify(*o); }; });
 }
 

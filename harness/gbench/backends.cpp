@@ -8,6 +8,7 @@
 #include "harness/gbench/bench.hpp"
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
+#include "harness/verify/setup_of.hpp"
 #include "harness/verify/verifier.hpp"
 
 namespace pairsum::harness {
@@ -20,10 +21,7 @@ struct shared_world {
   std::unique_ptr<verifier> oracle;
 
   explicit shared_world(const bench_request& r)
-      : initial(make_case(r.case_name, {.dx = r.dx, .H = 0, .state = r.state, .seed = 1})) {
-    base.omega_low = initial.omega_low;
-    base.omega_high = initial.omega_high;
-    base.constants = {initial.H, initial.eos};
+      : initial(make_case(r.case_name, {.dx = r.dx, .H = 0, .state = r.state, .seed = 1})), base(setup_of(initial)) {
     const worker_team all(runtime::omp, usable_cores());
     oracle = std::make_unique<verifier>(registry::instance(), base, initial.particles, all.get());
   }
@@ -44,7 +42,7 @@ void sum_benchmark(benchmark::State& state, const bench_request& r, const std::s
   const team& t = workers.get();
   summation->load(w.initial.particles, {});
   summation->evaluate(t);
-  const auto outcome = w.oracle->check(*summation, 1, t);
+  const auto outcome = w.oracle->check(*summation, {}, t);
   if (!outcome.ok) {
     state.SkipWithError(outcome.error.c_str());
     return;

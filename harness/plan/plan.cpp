@@ -35,16 +35,14 @@ void check_request(const run_request& r, const registry& all) {
   check_word("case", r.case_name, cases);
   for (const auto& s : r.states) check_word("state", s, case_states);
   for (const auto& b : r.backends) all.find_backend(b);
-  check_word("interaction", r.interaction, all.interactions());
-  check_word("smoothing kernel", r.smoothing, all.smoothings());
-  check_word("precision", r.precision, all.precisions());
-  std::vector<std::string> dims;
-  for (const int d : all.dims()) dims.push_back(fmt::format("{}D", d));
-  check_word("dimension", fmt::format("{}D", r.dim), dims);
-  check_word("order", r.order, memory_orders);
+  for (const auto& i : r.interactions) all.check_interaction(i);
+  for (const auto& k : r.smoothings) all.check_smoothing(k);
+  for (const auto& p : r.precisions) all.check_precision(p);
+  all.check_dim(r.dim);
+  for (const auto& o : r.orders) check_word("order", o, memory_orders);
+  for (const auto& i : r.integrators) find_integrator(i);
   check_word("grid", r.grid, grid_names());
   check_word("value of --outside", r.outside, std::vector<std::string_view>{"error", "drop"});
-  find_integrator(r.integrator);
   for (const double dx : r.dx) check_positive("dx", dx);
   if (r.H != 0) check_positive("H", r.H);
   check_positive("dt", r.dt);
@@ -61,35 +59,50 @@ void check_request(const run_request& r, const registry& all) {
         fmt::format("a study's name is a folder's name: no slash, no blank, no leading dot, is \"{}\"", r.study));
 }
 
-std::vector<world_plan> expand(const run_request& r, const registry& all) {
-  std::vector<world_plan> worlds;
-  for (const double dx : r.dx)
-    for (const std::string& state : r.states) {
-      world_plan w{dx, state, {}};
+namespace {
+
+/// The points of one world, whose words `p` holds.
+world_plan points_of_world(point p, const run_request& r, const registry& all) {
+  world_plan points;
+  for (const std::string& integrator : r.integrators)
+    for (const std::string& order : r.orders)
       for (const int M : r.M)
         for (const int threads : r.threads)
           for (const std::string& backend : r.backends) {
-            point p;
-            p.case_name = r.case_name;
-            p.state = state;
-            p.dx = dx;
-            p.order = r.order;
-            p.dim = r.dim;
-            p.precision = r.precision;
-            p.interaction = r.interaction;
-            p.smoothing = r.smoothing;
-            p.integrator = r.integrator;
-            p.dt = r.dt;
+            p.integrator = integrator;
+            p.order = order;
             p.backend = backend;
-            p.grid = r.grid;
             p.M = M;
-            p.isa = compiled_isa();
-            const bool serial = all.find_backend(backend).traits.threads == runtime::serial;
-            p.threads = serial ? 1 : threads;
-            if (std::ranges::find(w.points, p) == w.points.end()) w.points.push_back(p);
+            p.threads = all.find_backend(backend).traits.threads == runtime::serial ? 1 : threads;
+            if (std::ranges::find(points, p) == points.end()) points.push_back(p);
           }
-      worlds.push_back(std::move(w));
-    }
+  return points;
+}
+
+}  // namespace
+
+std::vector<world_plan> expand(const run_request& r, const registry& all) {
+  std::vector<world_plan> worlds;
+  point p;
+  p.case_name = r.case_name;
+  p.dim = r.dim;
+  p.dt = r.dt;
+  p.grid = r.grid;
+  p.isa = compiled_isa();
+  for (const double dx : r.dx)
+    for (const std::string& state : r.states)
+      for (const std::string& precision : r.precisions)
+        for (const std::string& interaction : r.interactions)
+          for (const std::string& smoothing : r.smoothings) {
+            const bool smoothed = all.is_smoothed(interaction);
+            if (!smoothed && smoothing != r.smoothings.front()) continue;
+            p.dx = dx;
+            p.state = state;
+            p.precision = precision;
+            p.interaction = interaction;
+            p.smoothing = smoothed ? smoothing : no_smoothing;
+            worlds.push_back(points_of_world(p, r, all));
+          }
   return worlds;
 }
 

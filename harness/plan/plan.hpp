@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/rows/row.hpp"
@@ -18,8 +19,9 @@ struct run_request {
   std::vector<int> threads{1};
   int dim = 3;
   double H = 0;  ///< 0: 2 dx
-  std::string order = "lattice", precision = "double", interaction = "ferrari09", smoothing = "wendland_c2";
-  std::string integrator = "euler", grid = "hashed_grid", outside = "error";
+  std::vector<std::string> orders{"lattice"}, precisions{"double"}, interactions{"ferrari09"},
+      smoothings{"wendland_c2"}, integrators{"euler"};
+  std::string grid = "hashed_grid", outside = "error";
   double dt = 1e-5;
   int steps = 5, repetitions = 6;
   double budget_s = 0;  ///< 0: none
@@ -30,14 +32,15 @@ struct run_request {
 /// anything is computed or written.
 void check_request(const run_request& r, const registry& all = registry::instance());
 
-/// One world: the points of a world share particles and reference.
-struct world_plan {
-  double dx;
-  std::string state;
-  std::vector<point> points;  ///< headline first: in the order of the request; particle numbers are filled in later
-};
+/// One world: the points of a world share particles and reference, so they have the same dx, state, precision,
+/// interaction and smoothing kernel. Headline first: in the order of the request; particle numbers are filled in later.
+using world_plan = std::vector<point>;
 
-/// The points, grouped by world. A serial backend appears once per M, with 1 thread.
+/// What stands for the smoothing kernel of an interaction that takes none.
+inline constexpr std::string_view no_smoothing = "none";
+
+/// The points, grouped by world. A serial backend appears once per M, with 1 thread; an interaction that takes no
+/// smoothing kernel appears once.
 std::vector<world_plan> expand(const run_request& r, const registry& all = registry::instance());
 
 /// The order in which repetition `repetition` measures `n` points: a permutation that depends on (seed, repetition)

@@ -44,10 +44,23 @@ double median_ms(const collected& c, std::optional<double> phases::*phase) {
 
 }  // namespace
 
+std::string words_of(const point& p) {
+  return fmt::format("{}, {}, {}, {}, order {}", p.precision, p.interaction, p.smoothing, p.integrator, p.order);
+}
+
 std::string results_table(const std::vector<sample>& samples) {
   std::string text = fmt::format("{:<16}{:>10}{:>11}{:>4}{:>4}{:>5}{:>10}{:>10}{:>10}{:>10}{:>9}\n", "backend", "dx",
                                  "state", "M", "thr", "rep", "index ms", "prep ms", "sum ms", "total ms", "ns/pair");
-  for (const collected& c : by_point(samples)) {
+  std::vector<collected> all = by_point(samples);
+  std::map<std::string, std::size_t> first;  // points with the same words stand together, in the order measured
+  for (const collected& c : all) first.try_emplace(words_of(c.what), first.size());
+  std::ranges::stable_sort(all, {}, [&](const collected& c) { return first.at(words_of(c.what)); });
+  std::string heading;
+  for (const collected& c : all) {
+    if (first.size() > 1 && words_of(c.what) != heading) {
+      heading = words_of(c.what);
+      text += heading + "\n";
+    }
     text += fmt::format("{:<16}{:>10}{:>11}{:>4}{:>4}{:>5}", c.what.backend, c.what.dx, c.what.state, c.what.M,
                         c.what.threads, c.repetitions.size());
     if (!c.error.empty()) {

@@ -21,17 +21,23 @@ std::string label(const point& p) {
   return fmt::format("{} dx={} {} M={} threads={}", p.backend, p.dx, p.state, p.M, p.threads);
 }
 
+std::string full_label(const point& p) { return fmt::format("{} ({})", label(p), words_of(p)); }
+
+std::string place(const point& p) {
+  return fmt::format("dx={} {} {} {} {}", p.dx, p.state, p.precision, p.interaction, p.smoothing);
+}
+
 /// One invocation: a round of the rows file.
 class round_run {
  public:
   round_run(const registry& all, const run_request& r, const std::filesystem::path& out)
       : registry_(all), request_(r), round_(last_round(out) + 1), environment_(describe_environment(r.study)) {
     for (const world_plan& w : expand(r, all))
-      plans_.push_back({w, std::make_unique<world>(registry_, request_, w.dx, w.state)});
+      plans_.push_back({w, std::make_unique<world>(registry_, request_, w.front())});
     writer_ = std::make_unique<row_writer>(out);  // last, so that bad input leaves no file behind
     writer_->write(environment_);
     std::size_t points = 0;
-    for (const auto& p : plans_) points += p.plan.points.size();
+    for (const auto& p : plans_) points += p.plan.size();
     progress_ = std::make_unique<progress>(static_cast<double>(points) * (request_.repetitions + warm_up_cost),
                                            request_.budget_s);
   }
@@ -76,14 +82,13 @@ class round_run {
   /// Makes the world and warms every point up, verified; points that fail are reported and not measured.
   void prepare(planned& p) {
     if (interrupted()) return;
-    progress_->show(done_, fmt::format("reference for dx={} {}", p.plan.dx, p.plan.state));
+    progress_->show(done_, "reference for " + place(p.plan.front()));
     p.made->make_reference();
     p.ready = true;
     if (p.made->dropped() > 0)
-      note(fmt::format("{} particles outside Omega were dropped (dx={} {})", p.made->dropped(), p.plan.dx,
-                       p.plan.state));
+      note(fmt::format("{} particles outside Omega were dropped ({})", p.made->dropped(), place(p.plan.front())));
     std::vector<point> good;
-    for (point& q : p.plan.points) {
+    for (point& q : p.plan) {
       if (interrupted()) return;
       p.made->complete(q);
       progress_->show(done_, "warm-up " + label(q));
@@ -93,17 +98,17 @@ class round_run {
         good.push_back(q);
       else
         write_failure(q, r.error);
-      if (r.lost > 0) note(fmt::format("{}: {} particles left Omega and are no longer summed", label(q), r.lost));
+      if (r.lost > 0) note(fmt::format("{}: {} particles left Omega and are no longer summed", full_label(q), r.lost));
       advance(warm_up_cost + (r.error.empty() ? 0 : request_.repetitions), label(q));
     }
-    p.plan.points = std::move(good);
+    p.plan = std::move(good);
   }
 
   void measure(planned& p, int repetition) {
     if (!p.ready) return;
-    const auto order = shuffled_order(p.plan.points.size(), request_.seed, repetition);
+    const auto order = shuffled_order(p.plan.size(), request_.seed, repetition);
     for (std::size_t slot = 0; slot < order.size() && !interrupted(); ++slot) {
-      const point& q = p.plan.points[order[slot]];
+      const point& q = p.plan[order[slot]];
       const world::result r = p.made->measure(q);
       if (r.interrupted) return;
       if (!r.error.empty()) {
@@ -144,7 +149,7 @@ class round_run {
     sample s = blank(q);
     s.error = why;
     keep(s);
-    note(fmt::format("{} FAILED its verification: {}", label(q), why));
+    note(fmt::format("{} FAILED its verification: {}", full_label(q), why));
   }
 
   void keep(const sample& s) {

@@ -9,43 +9,34 @@
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
 #include "harness/run/interrupt.hpp"
+#include "harness/verify/setup_of.hpp"
 #include "integrators/integrator.hpp"
 #include "sum/check.hpp"
 
 namespace pairsum::harness {
 
-world::world(const registry& all, const run_request& r, double dx, const std::string& state)
-    : registry_(all), request_(r) {
-  initial_ = make_case(r.case_name, {r.dim, dx, r.H, state, r.seed});
+world::world(const registry& all, const run_request& r, const point& any) : registry_(all), request_(r), any_(any) {
+  initial_ = make_case(r.case_name, {r.dim, any.dx, r.H, any.state, r.seed});
   if (r.outside == "drop") dropped_ = drop_outside(initial_.particles, initial_.omega_low, initial_.omega_high);
-  check_input(initial_.particles, any_setup());
-  order_ = memory_order(r.order, initial_, r.seed);
+  const setup s = setup_for(any);
+  check_input(initial_.particles, s);
+  registry_.make_summation(s)->load(initial_.particles, {});  // what the interaction refuses is refused here
+  for (const std::string& order : r.orders) orders_[order] = memory_order(order, initial_, r.seed);
 }
 
 void world::make_reference() {
   const worker_team workers(runtime::omp, usable_cores());
-  verifier_ = std::make_unique<verifier>(registry_, any_setup(), initial_.particles, workers.get());
-}
-
-setup world::any_setup() const {
-  point any;
-  any.backend = request_.backends.front();
-  any.M = request_.M.front();
-  return setup_for(any);
+  verifier_ = std::make_unique<verifier>(registry_, setup_for(any_), initial_.particles, workers.get());
 }
 
 setup world::setup_for(const point& p) const {
-  setup s;
+  setup s = setup_of(initial_);
   s.backend = p.backend;
-  s.interaction = request_.interaction;
-  s.smoothing = request_.smoothing;
-  s.precision = request_.precision;
-  s.grid = request_.grid;
-  s.dim = request_.dim;
+  s.interaction = p.interaction;
+  s.smoothing = p.smoothing;
+  s.precision = p.precision;
+  s.grid = p.grid;
   s.M = p.M;
-  s.omega_low = initial_.omega_low;
-  s.omega_high = initial_.omega_high;
-  s.constants = {initial_.H, initial_.eos};
   return s;
 }
 
@@ -76,9 +67,10 @@ world::result world::measure(const point& p) {
   const auto summation = registry_.make_summation(setup_for(p));
   const worker_team workers(summation->traits().threads, p.threads);
   const team& t = workers.get();
-  const integrator_entry& integrator = find_integrator(request_.integrator);
+  const integrator_entry& integrator = find_integrator(p.integrator);
   reset_peak_rss();
-  summation->load(initial_.particles, order_);
+  summation->load(initial_.particles, orders_.at(p.order));
+  int evaluations = 0;
   for (int step = 1; step <= request_.steps && out.error.empty(); ++step) {
     if (interrupted()) {
       out.interrupted = true;
@@ -100,8 +92,9 @@ world::result world::measure(const point& p) {
       summation->reduce(t);
       times.reduce_s = times.reduce_s.value_or(0) + clock.lap();
       out.peak_rss_bytes = peak_rss_bytes();
-      now.checked = verifier_->check(*summation, step, t);
-      if (step == 1) out.work = work_of(p, *summation);
+      const verifier::outcome checked = verifier_->check(*summation, {p.integrator, ++evaluations}, t);
+      if (now.checked.ok) now.checked = checked;  // a step with a wrong stage stays wrong
+      if (evaluations == 1) out.work = work_of(p, *summation);
       checking += clock.lap();
     };
     stopwatch whole;

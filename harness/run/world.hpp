@@ -16,11 +16,12 @@ struct step_result {
   verifier::outcome checked;
 };
 
-/// The particles of one (dx, state), made once, and the measurement of any backend on them.
+/// The particles of one world, made once, and the measurement of any backend on them.
 class world {
  public:
   /// Makes and checks the particles. `dropped()` of them lay outside Omega and were left out (--outside drop).
-  world(const registry& all, const run_request& r, double dx, const std::string& state);
+  /// `any` is one of the world's points.
+  world(const registry& all, const run_request& r, const point& any);
 
   /// Computes the reference; to be called before the first measure().
   void make_reference();
@@ -45,13 +46,13 @@ class world {
 
  private:
   setup setup_for(const point& p) const;
-  setup any_setup() const;
   work_row work_of(const point& p, summation& s);
 
   const registry& registry_;
   run_request request_;
   initial_condition initial_;
-  std::vector<std::uint32_t> order_;
+  point any_;
+  std::map<std::string, std::vector<std::uint32_t>> orders_;
   std::size_t dropped_ = 0;
   std::unique_ptr<verifier> verifier_;
   std::map<std::pair<std::string, int>, work_row> work_;

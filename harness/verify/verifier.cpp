@@ -39,24 +39,25 @@ expectation verifier::sampled(const particle_table& p, std::size_t n, std::uint6
   return reference_->brute_force(p, t, chosen);
 }
 
-expectation verifier::expect_now(const particle_table& p, int step, const team& t) const {
+expectation verifier::expect_now(const particle_table& p, int evaluation, const team& t) const {
   if (p.size() <= brute_force_limit) return reference_->brute_force(p, t);
-  return sampled(p, later_samples, static_cast<std::uint64_t>(step), t);
+  return sampled(p, later_samples, static_cast<std::uint64_t>(evaluation), t);
 }
 
-verifier::outcome verifier::check(summation& s, int step, const team& t) {
+verifier::outcome verifier::check(summation& s, const moment& when, const team& t) {
   outcome o;
   o.fingerprint = s.fingerprint();
-  const auto seen = known_.find({step, o.fingerprint});
+  const auto seen = known_.find({when, o.fingerprint});
   o.known = seen != known_.end();
   const verdict v = o.known     ? seen->second
-                    : step == 1 ? compare(s.rates(), expected_)
-                                : compare(s.rates(), expect_now(s.snapshot(), step, t));
+                    : when.evaluation == 1
+                        ? compare(s.rates(), expected_)
+                        : compare(s.rates(), expect_now(s.snapshot(), when.evaluation, t));
   o.ok = v.ok;
   o.max_rel_err = v.max_rel_err;
   o.bound = v.bound;
   o.error = v.error;
-  if (v.ok) known_.insert({{step, o.fingerprint}, v});
+  if (v.ok) known_.insert({{when, o.fingerprint}, v});
   return o;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <compare>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,13 +14,20 @@ namespace pairsum::harness {
 /// is computed once (by brute force up to `brute_force_limit` particles, else by the reference's cell search, which is
 /// itself checked by brute force on 1000 sampled particles) and kept. Later steps are checked by brute force on the
 /// state as it is: all of its particles up to that limit, 256 sampled ones beyond. Rates that are bit-identical to
-/// rates verified before, at the same step, get the verdict those got.
+/// rates verified before, at the same moment, get the verdict those got.
 class verifier {
  public:
   static constexpr std::size_t brute_force_limit = 20000, later_samples = 256;
 
   /// `initial`: the particles that load() gets. Throws pairsum::error if the reference contradicts itself.
   verifier(const registry& r, const setup& s, particle_table initial, const team& t);
+
+  /// Which state of which trajectory: the integrator and the number of evaluations, from 1 at the initial state.
+  struct moment {
+    std::string integrator;
+    int evaluation = 1;
+    auto operator<=>(const moment&) const = default;
+  };
 
   struct outcome {
     bool ok = true;
@@ -29,20 +37,20 @@ class verifier {
     std::string error;
   };
 
-  /// Checks the rates of the evaluation that was made last; `step` counts from 1, step 1 being the initial state.
-  outcome check(summation& s, int step, const team& t);
+  /// Checks the rates of the evaluation that was made last.
+  outcome check(summation& s, const moment& when, const team& t);
 
   const expectation& initial_expectation() const { return expected_; }
 
  private:
   expectation sampled(const particle_table& p, std::size_t n, std::uint64_t seed, const team& t) const;
 
-  expectation expect_now(const particle_table& p, int step, const team& t) const;
+  expectation expect_now(const particle_table& p, int evaluation, const team& t) const;
 
   std::unique_ptr<reference> reference_;
   particle_table initial_;
   expectation expected_;
-  std::map<std::pair<int, std::uint64_t>, verdict> known_;
+  std::map<std::pair<moment, std::uint64_t>, verdict> known_;
 };
 
 }  // namespace pairsum::harness

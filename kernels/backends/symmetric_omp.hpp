@@ -26,13 +26,8 @@ struct symmetric_omp {
       .accumulates = true};
 
   template <class I>
-  struct workspace {
-    coloured_blocks<I::dim> blocks;
-
-    template <class Probe>
-    void prepare(const problem<I>& p, const team& t, Probe&) {
-      blocks.build(p.cells(), t);
-    }
+  struct workspace : coloured_workspace<I> {
+    using coloured_workspace<I>::blocks;
 
     template <class Probe>
     void sum(const problem<I>& p, const team& t, Probe& probe) {

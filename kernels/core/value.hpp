@@ -23,6 +23,11 @@ T square_root(T a) {
 }
 
 template <scalar T>
+T exponential(T a) {
+  return std::exp(a);
+}
+
+template <scalar T>
 constexpr T maximum(T a, T b) {
   return a < b ? b : a;
 }

@@ -67,8 +67,8 @@ void indexer<D, R>::sort(particle_set<D, R>& p, const team& t) {
   const std::size_t end = tail_in_order ? fluid_ : p.size();
   if (ascending(0, end)) return;
   counting_sort_.sort({keys_.data(), end}, grid_->key_bits() + (tail_in_order ? 0 : 2), t);
-  reorder_.apply(p, 0, counting_sort_.order(), t);
-  reorder_.apply(keys_, 0, counting_sort_.order(), t);
+  reorder_.apply(p, counting_sort_.order(), t);
+  reorder_.apply(keys_, counting_sort_.order(), t);
 }
 
 /// Indices in [begin, end) at which a new key starts.

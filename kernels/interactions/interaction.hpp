@@ -2,6 +2,7 @@
 #include <concepts>
 #include <cstdint>
 #include <string_view>
+#include <tuple>
 
 #include "core/fields.hpp"
 #include "eos/tait.hpp"
@@ -28,32 +29,77 @@ struct contributions {
   Rates to_i, to_j;
 };
 
+/// What an interaction without a boundary part keeps of a boundary particle: nothing.
+struct no_boundary_particle {
+  static constexpr auto fields() { return std::tuple<>{}; }
+};
+
+/// Does I say what a boundary particle does to a fluid particle?
+template <class I>
+concept has_boundary = requires { typename I::template boundary_particle<typename I::real>; };
+
 /// A pair interaction (the f of the talk). T is a scalar, a vector of lanes, or a value that carries an error bound.
 ///
+///   name, dim, real        the word for it, the dimension, the working precision
+///   I(physics)             takes the constants
 ///   particle<T>            what a fluid particle brings to a pair, derived once per summation by derive()
-///   boundary_particle<T>   the same for a boundary particle, by derive_boundary()
 ///   rates<T>               what is summed
 ///   pair(r, r2, i, j)      both contributions of a fluid pair; r = x_i - x_j, r2 = r.r < H^2; a backend that wants one
-///   side takes
-///                          .to_i and the compiler drops the rest
+///                          side takes .to_i and the compiler drops the rest
+///
+/// and, if boundary particles act on fluid particles (see has_boundary),
+///
+///   boundary_particle<T>   what a boundary particle brings, by derive_boundary()
 ///   boundary(r, r2, i, b)  what boundary particle b adds to fluid particle i, for r2 < (boundary_reach H)^2
+///   boundary_reach         in (0, 1]
+///   boundary_is_singular   true if there is no finite force at r = 0: such particles are refused
 template <class I>
 concept interaction = requires(const I& f, const particle_state<I::dim, typename I::real>& s,
                                const vec<I::dim, typename I::real>& r, typename I::real r2,
-                               const typename I::template particle<typename I::real>& i,
-                               const typename I::template boundary_particle<typename I::real>& b) {
+                               const typename I::template particle<typename I::real>& i) {
   { I::name } -> std::convertible_to<std::string_view>;
-  { I::boundary_reach } -> std::convertible_to<double>;
   { f.derive(s) } -> std::same_as<typename I::template particle<typename I::real>>;
-  { f.derive_boundary(s) } -> std::same_as<typename I::template boundary_particle<typename I::real>>;
   { f.pair(r, r2, i, i).to_j } -> std::convertible_to<typename I::template rates<typename I::real>>;
-  { f.boundary(r, r2, i, b) } -> std::same_as<typename I::template rates<typename I::real>>;
+} && (!has_boundary<I> || requires(const I& f, const particle_state<I::dim, typename I::real>& s,
+                                   const vec<I::dim, typename I::real>& r, typename I::real r2,
+                                   const typename I::template particle<typename I::real>& i) {
+  { I::boundary_reach } -> std::convertible_to<double>;
+  { f.boundary(r, r2, i, f.derive_boundary(s)) } -> std::same_as<typename I::template rates<typename I::real>>;
+});
+
+namespace interaction_detail {
+template <class I, class T>
+struct boundary_particle {
+  using type = no_boundary_particle;
 };
+template <has_boundary I, class T>
+struct boundary_particle<I, T> {
+  using type = typename I::template boundary_particle<T>;
+};
+}  // namespace interaction_detail
+
+/// Reach of boundary particles in units of H; 0 if they do not act.
+template <class I>
+constexpr double boundary_reach() {
+  if constexpr (has_boundary<I>)
+    return I::boundary_reach;
+  else
+    return 0;
+}
+
+/// Must a fluid particle not lie exactly on a boundary particle?
+template <class I>
+constexpr bool boundary_is_singular() {
+  if constexpr (requires { I::boundary_is_singular; })
+    return I::boundary_is_singular;
+  else
+    return false;
+}
 
 template <class I>
 using particle_of = typename I::template particle<typename I::real>;
 template <class I>
-using boundary_particle_of = typename I::template boundary_particle<typename I::real>;
+using boundary_particle_of = typename interaction_detail::boundary_particle<I, typename I::real>::type;
 template <class I>
 using rates_of = typename I::template rates<typename I::real>;
 

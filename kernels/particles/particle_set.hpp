@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/column.hpp"
 #include "core/vec.hpp"
@@ -22,6 +23,7 @@ struct particle_set {
   column<R> rho, m;
   column<std::uint32_t> id;
   column<particle_kind> kind;
+  std::vector<column<R>> carried;  ///< what an integrator keeps with the particles from stage to stage
 
   std::size_t size() const { return id.size(); }
 
@@ -32,6 +34,13 @@ struct particle_set {
     m.resize(n);
     id.resize(n);
     kind.resize(n);
+    for (auto& c : carried) c.resize(n);
+  }
+
+  /// Makes room for `columns` carried columns; their values are undefined until written.
+  void carry(std::size_t columns) {
+    carried.resize(columns);
+    for (auto& c : carried) c.resize(size());
   }
 
   vec<D, R> position(std::size_t i) const { return gather(x, i); }
@@ -46,6 +55,7 @@ struct particle_set {
     f(m);
     f(id);
     f(kind);
+    for (auto& c : carried) f(c);
   }
 
  private:

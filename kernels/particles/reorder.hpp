@@ -6,25 +6,26 @@
 
 namespace pairsum {
 
-/// Applies a permutation to columns: element k of the range becomes what was at `source[k]` (absolute indices). Keeps
+/// Applies a permutation to columns: element k becomes what was at `source[k]`, for the first
+/// source.size() elements. Keeps
 /// its scratch memory from call to call.
 class reorderer {
  public:
   template <class T>
-  void apply(column<T>& c, std::size_t first, std::span<const std::uint32_t> source, const team& t) {
+  void apply(column<T>& c, std::span<const std::uint32_t> source, const team& t) {
     scratch_.resize(source.size() * sizeof(T));
     T* const to = reinterpret_cast<T*>(scratch_.data());
     t.for_pieces(source.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t k = begin; k < end; ++k) to[k] = c[source[k]];
     });
     t.for_pieces(source.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
-      std::copy(to + begin, to + end, c.begin() + static_cast<std::ptrdiff_t>(first + begin));
+      std::copy(to + begin, to + end, c.begin() + static_cast<std::ptrdiff_t>(begin));
     });
   }
 
   template <int D, class R>
-  void apply(particle_set<D, R>& p, std::size_t first, std::span<const std::uint32_t> source, const team& t) {
-    p.each_column([&](auto& c) { apply(c, first, source, t); });
+  void apply(particle_set<D, R>& p, std::span<const std::uint32_t> source, const team& t) {
+    p.each_column([&](auto& c) { apply(c, source, t); });
   }
 
  private:

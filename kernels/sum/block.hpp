@@ -89,33 +89,27 @@ class coloured_blocks {
   static constexpr unsigned colours = pattern::block_cells<D>;
 
   /// The same lists in the same order for every team.
-  void build(const cells<D>& c, const team& t) {
-    const std::size_t pieces = static_cast<std::size_t>(t.threads());
-    std::vector<std::array<std::size_t, colours>> next(pieces + 1);
-    const auto in_pieces = [&](auto&& visit) {
-      t.for_pieces(c.fluid_cells,
-                   [&](std::size_t begin, std::size_t end, std::size_t piece) { visit(begin + 1, end + 1, piece); });
-    };
-    in_pieces([&](std::size_t begin, std::size_t end, std::size_t piece) {
-      std::array<std::size_t, colours> n{};
-      each_block(c, begin, end, [&](unsigned colour, const block<D>&) { ++n[colour]; });
-      next[piece] = n;
-    });
-    for (unsigned o = 0; o < colours; ++o) {
-      std::size_t total = 0;
-      for (std::size_t piece = 0; piece < pieces; ++piece) total += std::exchange(next[piece][o], total);
-      blocks_[o].resize(total);
-    }
-    in_pieces([&](std::size_t begin, std::size_t end, std::size_t piece) {
-      std::array<std::size_t, colours> at = next[piece];
-      each_block(c, begin, end, [&](unsigned colour, const block<D>& b) { blocks_[colour][at[colour]++] = b; });
-    });
-  }
+  void build(const cells<D>& c, const team& t);
 
   const column<block<D>>& operator[](unsigned colour) const { return blocks_[colour]; }
 
  private:
   std::array<column<block<D>>, colours> blocks_;
 };
+
+/// What the backends that go through the colours keep from step to step.
+template <class I>
+struct coloured_workspace {
+  coloured_blocks<I::dim> blocks;
+
+  template <class Probe>
+  void prepare(const problem<I>& p, const team& t, Probe&) {
+    blocks.build(p.cells(), t);
+  }
+};
+
+extern template class coloured_blocks<1>;
+extern template class coloured_blocks<2>;
+extern template class coloured_blocks<3>;
 
 }  // namespace pairsum

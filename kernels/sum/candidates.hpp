@@ -33,16 +33,13 @@ class range_list {
 /// Finds the candidates of one particle that are in reach. Two steps instead of one loop: the first only tests
 /// distances and packs the indices that pass without a branch, the second (the visitor) runs the formula on those
 /// alone; so the branch predictor never has to guess a distance.
-template <class I>
+template <int D, class R>
 class candidate_filter {
  public:
-  using real = typename I::real;
-  static constexpr int dim = I::dim;
-
   /// Calls visit(j) for every j of the ranges with |x_i - x_j|^2 < reach2, in ascending order within a range; returns
   /// the number.
   template <class Ranges, class Visit>
-  [[gnu::always_inline]] static std::size_t each_in_reach(const problem<I>& p, const vec<dim, real>& x_i, real reach2,
+  [[gnu::always_inline]] static std::size_t each_in_reach(const positions<D, R>& x, const vec<D, R>& x_i, R reach2,
                                                           const Ranges& ranges, Visit&& visit) {
     constexpr std::uint32_t piece = 256;
     std::uint32_t hits[2 * piece];
@@ -58,7 +55,7 @@ class candidate_filter {
 #pragma GCC unroll 4
         for (std::uint32_t j = begin; j < end; ++j) {
           hits[n] = j;
-          n += norm2<dim, real>(x_i - p.position(j)) < reach2;
+          n += norm2<D, R>(x_i - x[j]) < reach2;
         }
         if (n > piece) [[unlikely]]
           flush();
@@ -75,5 +72,8 @@ class candidate_filter {
     return n;
   }
 };
+
+template <class I>
+using filter_of = candidate_filter<I::dim, typename I::real>;
 
 }  // namespace pairsum

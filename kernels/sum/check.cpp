@@ -1,5 +1,6 @@
 #include "sum/check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -59,6 +60,30 @@ void check_input(const particle_table& p, const setup& s) {
     throw error(std::to_string(outside) + " of " + std::to_string(p.size()) +
                 " particles lie outside Omega; move them, enlarge Omega, or drop them (--outside drop)");
 }
+
+template <class R>
+void check_apart(const particle_table& p, std::string_view interaction) {
+  const auto before = [&](std::uint32_t i, std::uint32_t j) {
+    for (const auto& x : p.x) {
+      const R a = static_cast<R>(x[i]), b = static_cast<R>(x[j]);
+      if (a != b) return a < b;
+    }
+    return false;
+  };
+  std::vector<std::uint32_t> boundary;
+  for (std::uint32_t i = 0; i < p.size(); ++i)
+    if (p.kind[i] == particle_kind::boundary) boundary.push_back(i);
+  std::ranges::sort(boundary, before);
+  for (std::uint32_t i = 0; i < p.size(); ++i) {
+    if (p.kind[i] != particle_kind::fluid) continue;
+    const auto at = std::ranges::lower_bound(boundary, i, before);
+    if (at != boundary.end() && !before(i, *at))
+      throw error("fluid particle " + std::to_string(i) + " lies exactly on boundary particle " + std::to_string(*at) +
+                  ", where the boundary force of " + std::string(interaction) + " is infinite; move one of them");
+  }
+}
+template void check_apart<double>(const particle_table&, std::string_view);
+template void check_apart<float>(const particle_table&, std::string_view);
 
 void check_order(const std::vector<std::uint32_t>& order, std::size_t rows) {
   if (order.empty()) return;

@@ -1,4 +1,5 @@
 #pragma once
+#include <string_view>
 #include <vector>
 
 #include "particles/particle_table.hpp"
@@ -9,6 +10,11 @@ namespace pairsum {
 /// Throws pairsum::error unless H, Omega and every particle are usable: names the first bad particle, or counts those
 /// outside Omega.
 void check_input(const particle_table& p, const setup& s);
+
+/// Throws pairsum::error if a fluid and a boundary particle lie on the same point in precision R: names both. For
+/// interactions with a force that is infinite there.
+template <class R>
+void check_apart(const particle_table& p, std::string_view interaction);
 
 /// Throws pairsum::error for an H or an Omega that no particles could make good.
 void check_world(const setup& s);

@@ -7,18 +7,19 @@
 
 namespace pairsum {
 
+/// The words for interaction I.
 template <class I>
-combination combination_of() {
-  std::string smoothing;
-  if constexpr (requires { typename I::smoothing; }) smoothing = I::smoothing::name;
-  return {std::string(I::name), smoothing, I::dim, std::string(precision_name<typename I::real>())};
+constexpr combination_words words_of() {
+  combination_words w{I::name, "", I::dim, precision_name<typename I::real>()};
+  if constexpr (requires { typename I::smoothing; }) w.smoothing = I::smoothing::name;
+  return w;
 }
 
 /// Enrols backend B with interaction I.
 template <class B, class I>
 void enrol_summation(registry& r) {
-  r.enrol(B::traits.name, combination_of<I>(),
-          [](const setup& s) -> std::unique_ptr<summation> { return std::make_unique<summation_of<B, I>>(s); });
+  r.enrol(B::traits.name, words_of<I>(),
+          [](const setup& s) { return std::unique_ptr<summation>(new summation_of<B, I>(s)); });
 }
 
 }  // namespace pairsum

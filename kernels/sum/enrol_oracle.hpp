@@ -7,8 +7,7 @@ namespace pairsum {
 /// Enrols the reference for interaction I.
 template <class I>
 void enrol_oracle(registry& r) {
-  r.enrol_reference(combination_of<I>(),
-                    [](const setup& s) -> std::unique_ptr<reference> { return std::make_unique<reference_of<I>>(s); });
+  r.enrol_reference(words_of<I>(), [](const setup& s) { return std::unique_ptr<reference>(new reference_of<I>(s)); });
 }
 
 }  // namespace pairsum

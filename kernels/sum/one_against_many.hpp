@@ -8,16 +8,18 @@ namespace pairsum {
 template <class I, class Probe, class Ranges>
 [[gnu::always_inline]] inline void add_boundary(const problem<I>& p, std::uint32_t i, const particle_of<I>& a,
                                                 const Ranges& ranges, rates_of<I>& u_i, Probe& probe) {
-  if (ranges.empty()) return;
-  const auto x_i = p.position(i);
-  const std::size_t n = candidate_filter<I>::each_in_reach(
-      p, x_i, p.boundary_reach2, ranges, [&](std::uint32_t b) __attribute__((always_inline)) {
-        const vec<I::dim, typename I::real> r = x_i - p.position(b);
-        add(u_i, p.formula->boundary(r, norm2<I::dim, typename I::real>(r), a, p.boundary_particle(b)));
-      });
-  if constexpr (Probe::counting) {
-    probe.tested(candidate_filter<I>::size(ranges));
-    probe.boundary_pairs(n);
+  if constexpr (has_boundary<I>) {
+    if (ranges.empty()) return;
+    const auto x_i = p.position(i);
+    const std::size_t n = filter_of<I>::each_in_reach(
+        p.x, x_i, p.boundary_reach2, ranges, [&](std::uint32_t b) __attribute__((always_inline)) {
+          const vec<I::dim, typename I::real> r = x_i - p.position(b);
+          add(u_i, p.formula->boundary(r, norm2<I::dim, typename I::real>(r), a, p.boundary_particle(b)));
+        });
+    if constexpr (Probe::counting) {
+      probe.tested(filter_of<I>::size(ranges));
+      probe.boundary_pairs(n);
+    }
   }
 }
 
@@ -29,15 +31,15 @@ template <class I, class Probe, class FluidRanges, class BoundaryRanges>
   const auto x_i = p.position(i);
   const auto a = p.fluid.load(i);
   auto u_i = zero<rates_of<I>>();
-  const std::size_t n = candidate_filter<I>::each_in_reach(
-      p, x_i, p.reach2, fluid, [&](std::uint32_t j) __attribute__((always_inline)) {
+  const std::size_t n = filter_of<I>::each_in_reach(
+      p.x, x_i, p.reach2, fluid, [&](std::uint32_t j) __attribute__((always_inline)) {
         const vec<I::dim, typename I::real> r = x_i - p.position(j);
         const auto c = p.formula->pair(r, norm2<I::dim, typename I::real>(r), a, p.fluid.load(j));
         add(u_i, c.to_i);
         p.u.add(j, c.to_j);
       });
   if constexpr (Probe::counting) {
-    probe.tested(candidate_filter<I>::size(fluid));
+    probe.tested(filter_of<I>::size(fluid));
     probe.fluid_pairs(n);
   }
   add_boundary(p, i, a, boundary, u_i, probe);
@@ -52,13 +54,13 @@ template <class I, class Probe, class FluidRanges, class BoundaryRanges>
   const auto x_i = p.position(i);
   const auto a = p.fluid.load(i);
   auto u_i = zero<rates_of<I>>();
-  candidate_filter<I>::each_in_reach(
-      p, x_i, p.reach2, fluid, [&](std::uint32_t j) __attribute__((always_inline)) {
+  filter_of<I>::each_in_reach(
+      p.x, x_i, p.reach2, fluid, [&](std::uint32_t j) __attribute__((always_inline)) {
         const vec<I::dim, typename I::real> r = x_i - p.position(j);
         add(u_i, p.formula->pair(r, norm2<I::dim, typename I::real>(r), a, p.fluid.load(j)).to_i);
         if constexpr (Probe::counting) probe.fluid_pairs(j < i);
       });
-  if constexpr (Probe::counting) probe.tested(candidate_filter<I>::size(fluid));
+  if constexpr (Probe::counting) probe.tested(filter_of<I>::size(fluid));
   add_boundary(p, i, a, boundary, u_i, probe);
   p.u.store(i, u_i);
 }

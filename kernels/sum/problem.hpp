@@ -6,6 +6,18 @@
 
 namespace pairsum {
 
+/// The positions of the sorted set, a column per component.
+template <int D, class R>
+struct positions {
+  std::array<const R*, D> column;
+
+  [[gnu::always_inline]] vec<D, R> operator[](std::size_t i) const {
+    vec<D, R> p;
+    for (int d = 0; d < D; ++d) p[d] = column[d][i];
+    return p;
+  }
+};
+
 /// Everything a backend sees of one summation: sorted particles as columns, the cells they lie in, the formula, and
 /// where the rates go. Indices are positions in the sorted set: fluid [0, fluid_count), boundary behind it. Nothing
 /// here is owned.
@@ -14,7 +26,7 @@ struct problem {
   using real = typename I::real;
   static constexpr int dim = I::dim;
 
-  std::array<const real*, dim> x;                    ///< positions, all particles
+  positions<dim, real> x;                            ///< all particles
   field_pointers<particle_of<I>> fluid;              ///< index: fluid particle
   field_pointers<boundary_particle_of<I>> boundary;  ///< read it through boundary_particle(b)
   field_pointers<rates_of<I>> u;                     ///< index: fluid particle
@@ -29,11 +41,7 @@ struct problem {
   [[gnu::always_inline]] boundary_particle_of<I> boundary_particle(std::size_t b) const {
     return boundary.load(b - fluid_count);
   }
-  [[gnu::always_inline]] vec<dim, real> position(std::size_t i) const {
-    vec<dim, real> p;
-    for (int d = 0; d < dim; ++d) p[d] = x[d][i];
-    return p;
-  }
+  [[gnu::always_inline]] vec<dim, real> position(std::size_t i) const { return x[i]; }
 };
 
 }  // namespace pairsum

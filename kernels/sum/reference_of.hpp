@@ -74,9 +74,7 @@ class reference_of final : public reference {
     typename I::template particle<tracked> particle(std::uint32_t i) const {
       return derived.empty() ? f.formula_.derive(state(i)) : derived[i];
     }
-    typename I::template boundary_particle<tracked> boundary(std::uint32_t i) const {
-      return f.formula_.derive_boundary(state(i));
-    }
+    auto boundary(std::uint32_t i) const { return f.formula_.derive_boundary(state(i)); }
   };
 
   /// Particles sorted by an own cell number; a row of three cells is one range.
@@ -143,7 +141,7 @@ class reference_of final : public reference {
     out.ids = ids;
     for (auto* c : {&out.value, &out.bound, &out.magnitude}) c->assign(slots, std::vector<double>(ids.size()));
     constexpr bool exact = std::is_integral_v<std::remove_cvref_t<decltype(first_scalar())>>;
-    const R boundary_reach = static_cast<R>(I::boundary_reach) * H_;
+    const R boundary_reach = static_cast<R>(pairsum::boundary_reach<I>()) * H_;
     std::atomic<std::uint64_t> fluid_sides = 0, boundary_pairs = 0;
     constexpr std::size_t piece = 256;
     t.for_each((ids.size() + piece - 1) / piece, [&](std::size_t p) {
@@ -162,8 +160,9 @@ class reference_of final : public reference {
           const tracked r2t(r2, (D + 2) * tracked::rounded(r2));
           if (w.kind[j] == particle_kind::boundary) {
             ++walls;
-            if (!(r2 < boundary_reach * boundary_reach)) return;
-            s.take(formula_.boundary(rt, r2t, a_i, w.boundary(j)), nullptr);
+            if constexpr (has_boundary<I>)
+              if (r2 < boundary_reach * boundary_reach)
+                s.take(formula_.boundary(rt, r2t, a_i, w.boundary(j)), nullptr);
           } else {
             ++sides;
             const auto a_j = w.particle(j);

@@ -33,11 +33,12 @@ const registry& registry::instance() {
 void registry::enrol_backend(const backend_traits& t, std::string unavailable) {
   backends_.push_back({t, std::move(unavailable)});
 }
-void registry::enrol(std::string_view backend, combination c, summation_maker make) {
-  summations_.push_back({std::string(backend), std::move(c), std::move(make)});
+void registry::enrol_missing(missing_word m) { missing_.push_back(std::move(m)); }
+void registry::enrol(std::string_view backend, const combination_words& c, summation_maker make) {
+  summations_.push_back({std::string(backend), c, make});
 }
-void registry::enrol_reference(combination c, reference_maker make) {
-  references_.push_back({std::move(c), std::move(make)});
+void registry::enrol_reference(const combination_words& c, reference_maker make) {
+  references_.push_back({c, make});
 }
 
 std::vector<std::string> registry::interactions() const {
@@ -55,6 +56,29 @@ std::vector<int> registry::dims() const {
   return distinct<int>(references_, [](const combination& c) { return c.dim; });
 }
 
+template <class Words>
+void registry::check_built(const std::string& kind, const std::string& word, const Words& built) const {
+  for (const missing_word& m : missing_)
+    if (m.kind == kind && m.word == word)
+      throw error(kind + " " + word + " is not in this build; configure with -D" + m.option + "=all (built: " +
+                  join(built) + ")");
+  check_word(kind, word, built);
+}
+
+void registry::check_interaction(const std::string& word) const { check_built("interaction", word, interactions()); }
+void registry::check_smoothing(const std::string& word) const { check_built("smoothing kernel", word, smoothings()); }
+void registry::check_precision(const std::string& word) const { check_built("precision", word, precisions()); }
+void registry::check_dim(int dim) const {
+  std::vector<std::string> built;
+  for (const int d : dims()) built.push_back(std::to_string(d));
+  check_built("dimension", std::to_string(dim), built);
+}
+bool registry::is_smoothed(const std::string& interaction) const {
+  return std::ranges::any_of(references_, [&](const oracle& o) {
+    return o.what.interaction == interaction && !o.what.smoothing.empty();
+  });
+}
+
 const backend_entry& registry::find_backend(const std::string& name) const {
   std::vector<std::string_view> valid;
   for (const backend_entry& b : backends_) {
@@ -69,9 +93,10 @@ const backend_entry& registry::find_backend(const std::string& name) const {
 
 template <class Entries>
 const auto& registry::find(const Entries& entries, const setup& s) const {
-  check_word("interaction", s.interaction, interactions());
-  check_word("smoothing kernel", s.smoothing, smoothings());
-  check_word("precision", s.precision, precisions());
+  check_interaction(s.interaction);
+  if (is_smoothed(s.interaction)) check_smoothing(s.smoothing);
+  check_precision(s.precision);
+  check_dim(s.dim);
   std::vector<std::string> built;
   for (const auto& e : entries) {
     if constexpr (requires { e.backend; })

@@ -1,7 +1,7 @@
 #pragma once
-#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sum/reference.hpp"
@@ -17,10 +17,26 @@ struct combination {
   bool operator==(const combination&) const = default;
 };
 
+/// The same as words that live for ever.
+struct combination_words {
+  std::string_view interaction, smoothing;
+  int dim;
+  std::string_view precision;
+  operator combination() const {
+    return {std::string(interaction), std::string(smoothing), dim, std::string(precision)};
+  }
+};
+
 /// A backend as `pairsum list` shows it.
 struct backend_entry {
   backend_traits traits;
   std::string unavailable;  ///< why it cannot be used, empty if it can
+};
+
+/// A word that is known but was left out of this build.
+struct missing_word {
+  std::string kind, word;  ///< kind: dimension, precision, interaction, smoothing kernel
+  std::string option;      ///< the CMake option that brings it
 };
 
 /// All that was built, and the only door to it.
@@ -35,6 +51,17 @@ class registry {
   std::vector<std::string> precisions() const;
   std::vector<int> dims() const;
 
+  const std::vector<missing_word>& missing() const { return missing_; }
+
+  // Throw pairsum::error for a word that is not built: an unknown one with those that are, one that was left out with the
+  // option that brings it.
+  void check_interaction(const std::string& word) const;
+  void check_smoothing(const std::string& word) const;
+  void check_precision(const std::string& word) const;
+  void check_dim(int dim) const;
+  /// Does the interaction take a smoothing kernel? One that is not built does not.
+  bool is_smoothed(const std::string& interaction) const;
+
   /// The backend's entry; an unknown or unavailable name is an error that lists the valid ones.
   const backend_entry& find_backend(const std::string& name) const;
 
@@ -45,13 +72,16 @@ class registry {
   std::unique_ptr<reference> make_reference(const setup& s) const;
 
   // For the enrolment.
-  using summation_maker = std::function<std::unique_ptr<summation>(const setup&)>;
-  using reference_maker = std::function<std::unique_ptr<reference>(const setup&)>;
+  using summation_maker = std::unique_ptr<summation> (*)(const setup&);
+  using reference_maker = std::unique_ptr<reference> (*)(const setup&);
   void enrol_backend(const backend_traits& t, std::string unavailable = {});
-  void enrol(std::string_view backend, combination c, summation_maker make);
-  void enrol_reference(combination c, reference_maker make);
+  void enrol_missing(missing_word m);
+  void enrol(std::string_view backend, const combination_words& c, summation_maker make);
+  void enrol_reference(const combination_words& c, reference_maker make);
 
  private:
+  template <class Words>
+  void check_built(const std::string& kind, const std::string& word, const Words& built) const;
   template <class Entries>
   const auto& find(const Entries& entries, const setup& s) const;
 
@@ -65,6 +95,7 @@ class registry {
     reference_maker make;
   };
   std::vector<backend_entry> backends_;
+  std::vector<missing_word> missing_;
   std::vector<made> summations_;
   std::vector<oracle> references_;
 };

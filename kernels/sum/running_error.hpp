@@ -62,6 +62,11 @@ struct running_error {
     const double root = static_cast<double>(v);
     return {v, (a.e < a.size() ? a.e / root : std::sqrt(a.e)) + rounded(v)};
   }
+  /// The C library's exp is within 1 ulp, twice `rounded`; doubled again for safety.
+  friend running_error exponential(const running_error& a) {
+    const R v = std::exp(a.v);
+    return {v, std::abs(static_cast<double>(v)) * std::expm1(a.e) + 4 * rounded(v) + underflow};
+  }
   friend running_error maximum(const running_error& a, const running_error& b) {
     return {a.v < b.v ? b.v : a.v, std::max(a.e, b.e)};
   }

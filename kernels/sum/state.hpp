@@ -1,12 +1,13 @@
 #pragma once
 #include <array>
 
+#include "grid/indexer.hpp"
 #include "sum/summation.hpp"
 
 namespace pairsum {
 
-/// A summation whose particles are known to be D-dimensional in precision R: what integrators and backends' adapters
-/// work on.
+/// A summation whose particles are known to be D-dimensional in precision R: all that does not depend on the formula or
+/// the backend, and what integrators work on.
 template <int D, class R>
 class state : public summation {
  public:
@@ -18,12 +19,32 @@ class state : public summation {
   };
   virtual dynamics rates_of_state() = 0;
 
+  void load(const particle_table& p, const std::vector<std::uint32_t>& order) override;
+  void index(const team& t) override;
+  particle_table snapshot() const override;
+  std::size_t lost() const override { return lost_; }
+
   particle_set<D, R>& particles() { return particles_; }
   /// Fluid particles are the first of the set after index().
-  virtual std::size_t fluid_count() const = 0;
+  std::size_t fluid_count() const { return index_.fluid(); }
 
  protected:
+  explicit state(const setup& s);
+  ~state() override;
+
+  setup setup_;
   particle_set<D, R> particles_;
+  indexer<D, R> index_;
+  std::size_t rows_ = 0, lost_ = 0;
 };
+
+#define PAIRSUM_STATES(EXTERN)       \
+  EXTERN template class state<1, double>; \
+  EXTERN template class state<2, double>; \
+  EXTERN template class state<3, double>; \
+  EXTERN template class state<1, float>;  \
+  EXTERN template class state<2, float>;  \
+  EXTERN template class state<3, float>;
+PAIRSUM_STATES(extern)
 
 }  // namespace pairsum

@@ -92,9 +92,11 @@ class contradicts_itself final : public reference {
 };
 
 inline registry registry_with_reference_off_by(double off) {
+  static double current = 0;  // a maker is a plain function
+  current = off;
   registry r;
-  r.enrol_reference({"ferrari09", "wendland_c2", 3, "double"}, [off](const setup& s) -> std::unique_ptr<reference> {
-    return std::make_unique<contradicts_itself>(registry::instance().make_reference(s), off);
+  r.enrol_reference({"ferrari09", "wendland_c2", 3, "double"}, [](const setup& s) -> std::unique_ptr<reference> {
+    return std::make_unique<contradicts_itself>(registry::instance().make_reference(s), current);
   });
   return r;
 }

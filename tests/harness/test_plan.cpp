@@ -21,7 +21,7 @@ run_request request() {
 TEST(plan, crosses_the_lists_and_runs_serial_backends_once_per_M) {
   const auto worlds = expand(request());
   ASSERT_EQ(worlds.size(), 1u);
-  const auto& points = worlds.front().points;
+  const auto& points = worlds.front();
   EXPECT_EQ(points.size(), 2u * (1 + 3 + 3));
   EXPECT_EQ(std::ranges::count(points, "naive", &point::backend), 2);
   for (const point& p : points) {
@@ -77,12 +77,12 @@ TEST(plan, refuses_what_makes_no_sense_in_one_line) {
   expect_refused([](auto& r) { r.backends = {"nope"}; }, "valid: naive");
   expect_refused([](auto& r) { r.case_name = "nope"; }, "valid: dam_break");
   expect_refused([](auto& r) { r.states = {"nope"}; }, "valid: rest");
-  expect_refused([](auto& r) { r.interaction = "nope"; }, "valid: ferrari09");
-  expect_refused([](auto& r) { r.smoothing = "nope"; }, "valid: wendland_c2");
-  expect_refused([](auto& r) { r.precision = "nope"; }, "valid: double");
-  expect_refused([](auto& r) { r.integrator = "nope"; }, "valid: euler");
+  expect_refused([](auto& r) { r.interactions = {"nope"}; }, "valid: ferrari09");
+  expect_refused([](auto& r) { r.smoothings = {"nope"}; }, "valid: wendland_c2");
+  expect_refused([](auto& r) { r.precisions = {"nope"}; }, "valid: double");
+  expect_refused([](auto& r) { r.integrators = {"nope"}; }, "valid: euler");
   expect_refused([](auto& r) { r.grid = "nope"; }, "valid: hashed_grid");
-  expect_refused([](auto& r) { r.order = "nope"; }, "valid: lattice");
+  expect_refused([](auto& r) { r.orders = {"nope"}; }, "valid: lattice");
   expect_refused([](auto& r) { r.outside = "nope"; }, "valid: error");
   expect_refused([](auto& r) { r.M = {0}; }, "between 2 and 10");
   expect_refused([](auto& r) { r.M = {1}; }, "one cell");

@@ -109,7 +109,7 @@ TEST_F(run_test, orders_of_memory_give_the_same_pairs) {
     const auto path = folder_ / (std::string(order) + ".jsonl");
     run_request r = small();
     r.backends = {"symmetric"};
-    r.order = order;
+    r.orders = {order};
     ASSERT_EQ(run(r, path), 0) << order;
     for (const sample& s : read_rows(path).samples)
       if (s.work) pairs.insert(s.work->pairs_interacting);

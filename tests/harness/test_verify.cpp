@@ -113,7 +113,7 @@ TEST(verifier, known_bits_need_no_second_look_but_other_bits_do) {
     const auto sum = broken.make_summation(s);
     sum->load(c.particles, {});
     sum->evaluate(team());
-    return v.check(*sum, 1, team());
+    return v.check(*sum, {}, team());
   };
   EXPECT_FALSE(outcome("broken_none").known);
   EXPECT_TRUE(outcome("broken_none").known) << "second time: recognised by its bits";
@@ -153,8 +153,8 @@ TEST(verifier, a_later_step_is_checked_against_its_own_state) {
     if (moved.particles.kind[i] == particle_kind::fluid) moved.particles.x[0][i] += 1e-3;
   sum->load(moved.particles, {});
   sum->evaluate(team());
-  EXPECT_FALSE(v.check(*sum, 1, team()).ok) << "not the initial state";
-  EXPECT_TRUE(v.check(*sum, 2, team()).ok) << "right for the state it has";
+  EXPECT_FALSE(v.check(*sum, {}, team()).ok) << "not the initial state";
+  EXPECT_TRUE(v.check(*sum, {"euler", 2}, team()).ok) << "right for the state it has";
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ if [[ "$*" == *"${STUB_FAILS-nothing}"* ]]; then exit "$STUB_STATUS"; fi
 CMAKE = """#!/bin/bash
 echo "cmake $*" >>"$LOG"
 if [[ $1 == --build && -z ${STUB_NO_PROGRAM-} ]]; then
-  mkdir -p build/release/bin
-  cp "$STUBS/pairsum" build/release/bin/
+  mkdir -p build/study/bin
+  cp "$STUBS/pairsum" build/study/bin/
 fi
 exit "${STUB_CMAKE_STATUS:-0}"
 """

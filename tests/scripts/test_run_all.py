@@ -30,8 +30,8 @@ def test_the_full_run(sandbox):
     done = sandbox.run("./run_all.sh", "--no-install", "--jobs", "3", OMP_NUM_THREADS="1")
     assert done.returncode == 0, done.stderr
     calls = [call for call in sandbox.calls() if not call.startswith("python -c")]
-    assert calls[0] == "cmake --preset release"
-    assert calls[1] == "cmake --build --preset release --target pairsum --parallel 3"
+    assert calls[0] == "cmake --preset study"
+    assert calls[1] == "cmake --build --preset study --target pairsum --parallel 3"
     assert calls[2].startswith("pairsum verify ")
     runs = calls[3:8]
     assert all(run.startswith("pairsum run ") for run in runs)

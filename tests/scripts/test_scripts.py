@@ -32,9 +32,9 @@ def test_run_tests_ends_with_ctest(sandbox):
     assert done.returncode == 0, done.stderr
     calls = [call for call in sandbox.calls() if not call.startswith("python -c")]
     python = sandbox.environment["PYTHON"]
-    assert calls[0].startswith(f"cmake --preset dev -DPython3_EXECUTABLE={python}")
-    assert calls[1] == "cmake --build --preset dev --parallel 2"
-    assert calls[2].startswith("ctest --preset dev ") and len(calls) == 3
+    assert calls[0].startswith(f"cmake --preset test -DPython3_EXECUTABLE={python}")
+    assert calls[1] == "cmake --build --preset test --parallel 2"
+    assert calls[2].startswith("ctest --preset test ") and len(calls) == 3
 
 
 def test_run_tests_returns_the_status_of_ctest(sandbox):

@@ -1,0 +1,17 @@
+#pragma once
+#include "cases/case.hpp"
+#include "sum/setup.hpp"
+
+namespace pairsum::harness {
+
+/// The world of a case: Omega, dimension and constants; the words are left at their defaults.
+inline setup setup_of(const initial_condition& c) {
+  setup s;
+  s.dim = c.particles.dim;
+  s.omega_low = c.omega_low;
+  s.omega_high = c.omega_high;
+  s.constants = {c.H, c.eos};
+  return s;
+}
+
+}  // namespace pairsum::harness
