@@ -49,10 +49,9 @@ verifier::outcome verifier::check(summation& s, const moment& when, const team& 
   o.fingerprint = s.fingerprint();
   const auto seen = known_.find({when, o.fingerprint});
   o.known = seen != known_.end();
-  const verdict v = o.known     ? seen->second
-                    : when.evaluation == 1
-                        ? compare(s.rates(), expected_)
-                        : compare(s.rates(), expect_now(s.snapshot(), when.evaluation, t));
+  const verdict v = o.known                ? seen->second
+                    : when.evaluation == 1 ? compare(s.rates(), expected_)
+                                           : compare(s.rates(), expect_now(s.snapshot(), when.evaluation, t));
   o.ok = v.ok;
   o.max_rel_err = v.max_rel_err;
   o.bound = v.bound;

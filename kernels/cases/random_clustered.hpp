@@ -3,8 +3,8 @@
 
 namespace pairsum {
 
-/// Fluid in clusters of about 1000 particles: cubes with 8 times the mean density, placed uniformly at random in the unit
-/// cube (they may overlap), empty space between them. Cells differ widely in what they hold, which is what tells
+/// Fluid in clusters of about 1000 particles: cubes with 8 times the mean density, placed uniformly at random in the
+/// unit cube (they may overlap), empty space between them. Cells differ widely in what they hold, which is what tells
 /// schedules apart.
 struct random_clustered {
   static constexpr std::string_view name = "random_clustered";

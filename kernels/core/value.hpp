@@ -46,6 +46,7 @@ inline double fused(double a, double b, double c) {
   return a * b + c;
 #endif
 }
+inline long double fused(long double a, long double b, long double c) { return a * b + c; }
 inline float fused(float a, float b, float c) {
 #ifdef __FP_FAST_FMAF
   return __builtin_fmaf(a, b, c);

@@ -26,9 +26,9 @@ inline void keep(summation& s, int copies) {
   });
 }
 
-/// Calls f(quantity) for each quantity of the fluid, positions before velocities, so that f may write y while the rates of
-/// the others still stand. Does nothing for an interaction without rates drho and dv. `gravity` in m/s2 acts along -y, in
-/// 1D along -x.
+/// Calls f(quantity) for each quantity of the fluid, positions before velocities, so that f may write y while the rates
+/// of the others still stand. Does nothing for an interaction without rates drho and dv. `gravity` in m/s2 acts along
+/// -y, in 1D along -x.
 template <class F>
 void each_quantity(summation& s, double gravity, const team& t, F&& f) {
   with_state(s, [&]<int D, class R>(state<D, R>& st) {

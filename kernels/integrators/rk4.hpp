@@ -4,8 +4,8 @@
 
 namespace pairsum {
 
-/// The classical Runge-Kutta method (Hairer, Norsett, Wanner, "Solving Ordinary Differential Equations I", sec. II.1). The
-/// particles carry the old y (copy 0) and the weighted sum of the stages so far (copy 1).
+/// The classical Runge-Kutta method (Hairer, Norsett, Wanner, "Solving Ordinary Differential Equations I", sec. II.1).
+/// The particles carry the old y (copy 0) and the weighted sum of the stages so far (copy 1).
 struct rk4 {
   static constexpr std::string_view name = "rk4";
   static constexpr std::string_view description = "classical Runge-Kutta of order 4: four summations per step";

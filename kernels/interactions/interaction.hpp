@@ -36,7 +36,9 @@ struct no_boundary_particle {
 
 /// Does I say what a boundary particle does to a fluid particle?
 template <class I>
-concept has_boundary = requires { typename I::template boundary_particle<typename I::real>; };
+concept has_boundary = requires {
+  typename I::template boundary_particle<typename I::real>;
+};
 
 /// A pair interaction (the f of the talk). T is a scalar, a vector of lanes, or a value that carries an error bound.
 ///
@@ -60,12 +62,13 @@ concept interaction = requires(const I& f, const particle_state<I::dim, typename
   { I::name } -> std::convertible_to<std::string_view>;
   { f.derive(s) } -> std::same_as<typename I::template particle<typename I::real>>;
   { f.pair(r, r2, i, i).to_j } -> std::convertible_to<typename I::template rates<typename I::real>>;
-} && (!has_boundary<I> || requires(const I& f, const particle_state<I::dim, typename I::real>& s,
-                                   const vec<I::dim, typename I::real>& r, typename I::real r2,
-                                   const typename I::template particle<typename I::real>& i) {
-  { I::boundary_reach } -> std::convertible_to<double>;
-  { f.boundary(r, r2, i, f.derive_boundary(s)) } -> std::same_as<typename I::template rates<typename I::real>>;
-});
+}
+&&(!has_boundary<I> ||
+   requires(const I& f, const particle_state<I::dim, typename I::real>& s, const vec<I::dim, typename I::real>& r,
+            typename I::real r2, const typename I::template particle<typename I::real>& i) {
+     { I::boundary_reach } -> std::convertible_to<double>;
+     { f.boundary(r, r2, i, f.derive_boundary(s)) } -> std::same_as<typename I::template rates<typename I::real>>;
+   });
 
 namespace interaction_detail {
 template <class I, class T>

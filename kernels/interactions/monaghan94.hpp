@@ -3,15 +3,15 @@
 
 namespace pairsum {
 
-/// Weakly compressible SPH with artificial viscosity and Lennard-Jones walls (Monaghan, J. Comput. Phys. 110 (1994) 399).
-/// With r = x_i - x_j, v_ij = v_i - v_j, F = W'(r)/r, h = H/2, c = (c_i + c_j)/2, rho = (rho_i + rho_j)/2:
+/// Weakly compressible SPH with artificial viscosity and Lennard-Jones walls (Monaghan, J. Comput. Phys. 110 (1994)
+/// 399). With r = x_i - x_j, v_ij = v_i - v_j, F = W'(r)/r, h = H/2, c = (c_i + c_j)/2, rho = (rho_i + rho_j)/2:
 ///
 ///   drho_i/dt += m_j F v_ij.r                                     drho_j/dt += m_i F v_ij.r
 ///   a = (p_i/rho_i^2 + p_j/rho_j^2 + Pi) F r                      dv_i/dt -= m_j a,   dv_j/dt += m_i a
 ///   Pi = (-alpha c mu + beta mu^2)/rho for v_ij.r < 0, else 0;    mu = h v_ij.r/(r^2 + 0.01 h^2)
 ///
-/// A boundary particle repels a fluid particle closer than r0 = H/4 with the acceleration D ((r0/r)^4 - (r0/r)^2) r/r^2,
-/// D = 100 m2/s2; there is none at r = 0, so a fluid particle exactly on a boundary particle is refused.
+/// A boundary particle repels a fluid particle closer than r0 = H/4 with the acceleration D ((r0/r)^4 - (r0/r)^2)
+/// r/r^2, D = 100 m2/s2; there is none at r = 0, so a fluid particle exactly on a boundary particle is refused.
 template <int D, class R, template <int, class> class Smoothing>
 class monaghan94 {
  public:

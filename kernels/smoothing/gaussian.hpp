@@ -7,8 +7,10 @@
 
 namespace pairsum {
 
-/// A Gaussian of smoothing length h = H/3, cut off at H and normalised to integral 1 over its support. With q = r/H in [0,1):
-///   W = alpha exp(-9 q^2),   1/alpha = sqrt(pi)/3 erf(3) H,   pi/9 (1 - e^-9) H^2,   pi (sqrt(pi) erf(3)/27 - 2 e^-9/9) H^3
+/// A Gaussian of smoothing length h = H/3, cut off at H and normalised to integral 1 over its support. With q = r/H in
+/// [0,1):
+///   W = alpha exp(-9 q^2),   1/alpha = sqrt(pi)/3 erf(3) H,   pi/9 (1 - e^-9) H^2,   pi (sqrt(pi) erf(3)/27 - 2
+///   e^-9/9) H^3
 template <int D, class R>
 class gaussian {
   static_assert(D >= 1 && D <= 3);

@@ -6,8 +6,8 @@
 
 namespace pairsum {
 
-/// Wendland's C4 function with support radius H (H. Wendland, Adv. Comput. Math. 4 (1995) 389; normalised as in Dehnen & Aly, MNRAS
-/// 425 (2012) 1068, table 1). With q = r/H in [0,1):
+/// Wendland's C4 function with support radius H (H. Wendland, Adv. Comput. Math. 4 (1995) 389; normalised as in Dehnen
+/// & Aly, MNRAS 425 (2012) 1068, table 1). With q = r/H in [0,1):
 ///   1D: W = 3/(2 H) (1-q)^5 (1 + 5q + 8q^2)
 ///   2D: 9/(pi H^2) (1-q)^6 (1 + 6q + 35/3 q^2),   3D: 495/(32 pi H^3) times the same
 template <int D, class R>

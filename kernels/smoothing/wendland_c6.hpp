@@ -6,8 +6,8 @@
 
 namespace pairsum {
 
-/// Wendland's C6 function with support radius H (H. Wendland, Adv. Comput. Math. 4 (1995) 389; normalised as in Dehnen & Aly, MNRAS
-/// 425 (2012) 1068, table 1). With q = r/H in [0,1):
+/// Wendland's C6 function with support radius H (H. Wendland, Adv. Comput. Math. 4 (1995) 389; normalised as in Dehnen
+/// & Aly, MNRAS 425 (2012) 1068, table 1). With q = r/H in [0,1):
 ///   1D: W = 55/(32 H) (1-q)^7 (1 + 7q + 19q^2 + 21q^3)
 ///   2D: 78/(7 pi H^2) (1-q)^8 (1 + 8q + 25q^2 + 32q^3),   3D: 1365/(64 pi H^3) times the same
 template <int D, class R>
@@ -20,9 +20,7 @@ class wendland_c6 {
   /// H: support radius in m, positive.
   explicit wendland_c6(double H) : inv_H_(R(1 / H)) {
     constexpr double pi = std::numbers::pi;
-    const double alpha = D == 1   ? 55 / (32 * H)
-                         : D == 2 ? 78 / (7 * pi * H * H)
-                                  : 1365 / (64 * pi * H * H * H);
+    const double alpha = D == 1 ? 55 / (32 * H) : D == 2 ? 78 / (7 * pi * H * H) : 1365 / (64 * pi * H * H * H);
     alpha_ = R(alpha);
     slope_ = R((D == 1 ? -6 : -22) * alpha / (H * H));
   }

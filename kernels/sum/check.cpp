@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/error.hpp"
@@ -18,17 +19,35 @@ bool inside(const particle_table& p, std::size_t i, const std::vector<double>& l
 
 std::string text(double a) { return number_text(a); }
 
+/// What the formulas, which go up to H^-5 in 3D, can take without overflow, with some room for their factors.
+struct precision_range {
+  double low, high, largest;
+};
+precision_range range_of(const std::string& precision) {
+  if (precision == "float") return {1e-32, 1e32, std::numeric_limits<float>::max()};
+  return {1e-300, 1e300, std::numeric_limits<double>::max()};
+}
+
 }  // namespace
 
 void check_world(const setup& s) {
   if (!(s.constants.H > 0) || !std::isfinite(s.constants.H))
     throw error("the support radius H must be a positive length, is " + text(s.constants.H));
+  const precision_range range = range_of(s.precision);
+  const double power = std::pow(s.constants.H, 5);
+  if (!(power >= range.low && power <= range.high))
+    throw error("the support radius H of " + text(s.constants.H) + " m does not suit precision " + s.precision +
+                ": H^5 must lie between " + text(range.low) + " and " + text(range.high));
   if (s.omega_low.size() != static_cast<std::size_t>(s.dim) || s.omega_high.size() != s.omega_low.size())
     throw error("Omega must have corners of " + std::to_string(s.dim) + " components, has " +
                 std::to_string(s.omega_low.size()) + " and " + std::to_string(s.omega_high.size()));
   for (std::size_t d = 0; d < s.omega_low.size(); ++d)
     if (!std::isfinite(s.omega_low[d]) || !std::isfinite(s.omega_high[d]) || !(s.omega_low[d] <= s.omega_high[d]))
       throw error("Omega must have finite corners with A <= B, component " + std::to_string(d) + " is [" +
+                  text(s.omega_low[d]) + ", " + text(s.omega_high[d]) + "]");
+  for (std::size_t d = 0; d < s.omega_low.size(); ++d)
+    if (std::max(std::abs(s.omega_low[d]), std::abs(s.omega_high[d])) > range.largest)
+      throw error("Omega does not fit into precision " + s.precision + ": component " + std::to_string(d) + " is [" +
                   text(s.omega_low[d]) + ", " + text(s.omega_high[d]) + "]");
 }
 
@@ -37,16 +56,20 @@ void check_input(const particle_table& p, const setup& s) {
     throw error("the particles are " + std::to_string(p.dim) + "D, the summation is " + std::to_string(s.dim) + "D");
   check_world(s);
   if (p.size() >= (std::size_t{1} << 32) - 1024) throw error("at most 2^32 - 1025 particles can be summed");
+  const bool single = s.precision == "float";
   std::size_t outside = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
+    const auto rounded = [&](double a) { return single ? static_cast<double>(static_cast<float>(a)) : a; };
     const auto finite = [&](double a, const char* what) {
-      if (!std::isfinite(a))
-        throw error("particle " + std::to_string(i) + " has a " + what + " that is not finite (" + text(a) + ")");
+      if (!std::isfinite(rounded(a)))
+        throw error("particle " + std::to_string(i) + " has a " + what + " that is not finite" +
+                    (single ? " in float" : "") + " (" + text(a) + ")");
     };
     const auto positive = [&](double a, const char* what) {
       finite(a, what);
-      if (!(a > 0))
-        throw error("particle " + std::to_string(i) + " has a " + what + " of " + text(a) + ", which must be positive");
+      if (!(rounded(a) > 0))
+        throw error("particle " + std::to_string(i) + " has a " + what + " of " + text(a) + ", which must be positive" +
+                    (single ? " in float" : ""));
     };
     for (int d = 0; d < p.dim; ++d) {
       finite(p.x[d][i], "position");

@@ -79,7 +79,6 @@ class interaction_state : public state<I::dim, typename I::real> {
 
  public:
   void load(const particle_table& p, const std::vector<std::uint32_t>& order) override {
-    if constexpr (boundary_is_singular<I>()) check_apart<R>(p, I::name);
     base::load(p, order);
     view_ = {};
   }
@@ -130,6 +129,11 @@ class interaction_state : public state<I::dim, typename I::real> {
   // Not inline: each backend would compile its own copies.
   explicit interaction_state(const setup& s);
   ~interaction_state() override;
+
+  void check(const particle_table& p) const override {
+    base::check(p);
+    if constexpr (boundary_is_singular<I>()) check_apart<R>(p, I::name);
+  }
 
   /// Derives what the formula needs of the particles as indexed last.
   [[gnu::noinline]] const problem<I>& derive(const team& t) {

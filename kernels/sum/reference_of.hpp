@@ -161,8 +161,7 @@ class reference_of final : public reference {
           if (w.kind[j] == particle_kind::boundary) {
             ++walls;
             if constexpr (has_boundary<I>)
-              if (r2 < boundary_reach * boundary_reach)
-                s.take(formula_.boundary(rt, r2t, a_i, w.boundary(j)), nullptr);
+              if (r2 < boundary_reach * boundary_reach) s.take(formula_.boundary(rt, r2t, a_i, w.boundary(j)), nullptr);
           } else {
             ++sides;
             const auto a_j = w.particle(j);

@@ -37,9 +37,7 @@ void registry::enrol_missing(missing_word m) { missing_.push_back(std::move(m));
 void registry::enrol(std::string_view backend, const combination_words& c, summation_maker make) {
   summations_.push_back({std::string(backend), c, make});
 }
-void registry::enrol_reference(const combination_words& c, reference_maker make) {
-  references_.push_back({c, make});
-}
+void registry::enrol_reference(const combination_words& c, reference_maker make) { references_.push_back({c, make}); }
 
 std::vector<std::string> registry::interactions() const {
   return distinct<std::string>(references_, [](const combination& c) { return c.interaction; });
@@ -60,8 +58,8 @@ template <class Words>
 void registry::check_built(const std::string& kind, const std::string& word, const Words& built) const {
   for (const missing_word& m : missing_)
     if (m.kind == kind && m.word == word)
-      throw error(kind + " " + word + " is not in this build; configure with -D" + m.option + "=all (built: " +
-                  join(built) + ")");
+      throw error(kind + " " + word + " is not in this build; configure with -D" + m.option +
+                  "=all (built: " + join(built) + ")");
   check_word(kind, word, built);
 }
 
@@ -74,9 +72,8 @@ void registry::check_dim(int dim) const {
   check_built("dimension", std::to_string(dim), built);
 }
 bool registry::is_smoothed(const std::string& interaction) const {
-  return std::ranges::any_of(references_, [&](const oracle& o) {
-    return o.what.interaction == interaction && !o.what.smoothing.empty();
-  });
+  return std::ranges::any_of(
+      references_, [&](const oracle& o) { return o.what.interaction == interaction && !o.what.smoothing.empty(); });
 }
 
 const backend_entry& registry::find_backend(const std::string& name) const {

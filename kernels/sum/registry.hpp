@@ -53,8 +53,8 @@ class registry {
 
   const std::vector<missing_word>& missing() const { return missing_; }
 
-  // Throw pairsum::error for a word that is not built: an unknown one with those that are, one that was left out with the
-  // option that brings it.
+  // Throw pairsum::error for a word that is not built: an unknown one with those that are, one that was left out with
+  // the option that brings it.
   void check_interaction(const std::string& word) const;
   void check_smoothing(const std::string& word) const;
   void check_precision(const std::string& word) const;

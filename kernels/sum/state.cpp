@@ -13,11 +13,16 @@ state<D, R>::~state() = default;
 
 template <int D, class R>
 void state<D, R>::load(const particle_table& p, const std::vector<std::uint32_t>& order) {
-  check_input(p, setup_);
+  check(p);
   check_order(order, p.size());
   fill(particles_, p, order);
   rows_ = p.size();
   lost_ = 0;
+}
+
+template <int D, class R>
+void state<D, R>::check(const particle_table& p) const {
+  check_input(p, setup_);
 }
 
 template <int D, class R>

@@ -32,13 +32,16 @@ class state : public summation {
   explicit state(const setup& s);
   ~state() override;
 
+  /// Throws pairsum::error for particles that cannot be summed.
+  virtual void check(const particle_table& p) const;
+
   setup setup_;
   particle_set<D, R> particles_;
   indexer<D, R> index_;
   std::size_t rows_ = 0, lost_ = 0;
 };
 
-#define PAIRSUM_STATES(EXTERN)       \
+#define PAIRSUM_STATES(EXTERN)            \
   EXTERN template class state<1, double>; \
   EXTERN template class state<2, double>; \
   EXTERN template class state<3, double>; \

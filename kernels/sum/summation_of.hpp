@@ -54,9 +54,7 @@ class summation_of final : public interaction_state<I> {
     if constexpr (requires { workspace_.reduce(view_, t); }) workspace_.reduce(view_, t);
   }
 
-  work_counts count_work() override {
-    return count_work_of<B>(this->particles_, this->index_, this->setup_.constants);
-  }
+  work_counts count_work() override { return count_work_of<B>(this->particles_, this->index_, this->setup_.constants); }
 
  private:
   typename B::template workspace<I> workspace_;

@@ -17,6 +17,7 @@ inline const std::vector<shape> shapes{shape::uniform, shape::clustered, shape::
 
 /// A random cloud, described by a few numbers so that a failing one can be made again.
 struct cloud {
+  int dim = 3;
   shape form = shape::uniform;
   std::uint32_t fluid = 0, boundary = 0;
   double length = 1;  ///< edge of Omega, in units of H
@@ -27,9 +28,9 @@ struct cloud {
 };
 
 inline std::ostream& operator<<(std::ostream& o, const cloud& c) {
-  return o << "cloud{shape " << static_cast<int>(c.form) << ", fluid " << c.fluid << ", boundary " << c.boundary
-           << ", length " << c.length << " H, corner " << c.corner << ", H " << c.H << ", M " << c.M << ", seed "
-           << c.seed << "}";
+  return o << "cloud{" << c.dim << "D, shape " << static_cast<int>(c.form) << ", fluid " << c.fluid << ", boundary "
+           << c.boundary << ", length " << c.length << " H, corner " << c.corner << ", H " << c.H << ", M " << c.M
+           << ", seed " << c.seed << "}";
 }
 
 /// Position of particle i as fractions of Omega's edges.
@@ -73,13 +74,14 @@ inline scene make_cloud(const cloud& c) {
   s.world.constants.H = c.H;
   s.world.M = c.M;
   const double edge = c.length * c.H;
-  s.world.omega_low.assign(3, c.corner);
-  s.world.omega_high.assign(3, c.corner + edge);
-  particle_table& p = s.particles;
+  s.world.dim = c.dim;
+  s.world.omega_low.assign(c.dim, c.corner);
+  s.world.omega_high.assign(c.dim, c.corner + edge);
+  particle_table& p = s.particles = particle_table(c.dim);
   p.resize(c.fluid + c.boundary);
   for (std::uint64_t i = 0; i < p.size(); ++i) {
     const auto x = place_in(c, i);
-    for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t d = 0; d < s.world.omega_low.size(); ++d) {
       p.x[d][i] = std::min(c.corner + x[d] * edge, s.world.omega_high[d]);
       p.v[d][i] = state.uniform(8 * i + d, -1, 1);
     }

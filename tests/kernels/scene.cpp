@@ -26,6 +26,25 @@ setup with(setup s, std::string_view backend, int M, std::string_view interactio
   return s;
 }
 
+std::vector<formula> formulas() {
+  const registry& r = registry::instance();
+  std::vector<formula> all;
+  for (const int dim : r.dims())
+    for (const std::string& precision : r.precisions())
+      for (const std::string& interaction : r.interactions()) {
+        if (!r.is_smoothed(interaction)) all.push_back({dim, precision, interaction, "none"});
+        if (r.is_smoothed(interaction))
+          for (const std::string& smoothing : r.smoothings()) all.push_back({dim, precision, interaction, smoothing});
+      }
+  return all;
+}
+
+setup with(setup s, const formula& f, std::string_view backend, int M) {
+  s.precision = f.precision;
+  s.smoothing = f.smoothing;
+  return with(s, backend, M, f.interaction);
+}
+
 std::vector<std::string> backend_names() {
   std::vector<std::string> names;
   for (const backend_entry& b : registry::instance().backends())

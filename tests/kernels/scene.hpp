@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,21 @@ scene make_scene(std::string_view name, double dx, std::string_view state, std::
 
 /// The scene with other words in its setup.
 setup with(setup s, std::string_view backend, int M, std::string_view interaction = "ferrari09");
+
+/// What there is to sum, in one dimension and precision.
+struct formula {
+  int dim;
+  std::string precision, interaction, smoothing;  ///< smoothing is "none" where the interaction takes none
+};
+inline std::ostream& operator<<(std::ostream& o, const formula& f) {
+  return o << f.interaction << "_" << f.smoothing << "_" << f.dim << "D_" << f.precision;
+}
+
+/// Every formula of this build.
+std::vector<formula> formulas();
+
+/// The setup with a formula's words.
+setup with(setup s, const formula& f, std::string_view backend = "naive", int M = 4);
 
 /// The team a backend with these traits takes, with its arena. A serial backend gets an OpenMP
 /// team, for its index.

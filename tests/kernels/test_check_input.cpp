@@ -58,6 +58,18 @@ TEST_F(check_input_test, mass_and_density_must_be_positive) {
   expect_refusal({"particle 6", "density of -1000", "must be positive"});
 }
 
+TEST_F(check_input_test, float_must_hold_what_double_holds) {
+  p.v[1][7] = 1e39;
+  EXPECT_EQ(refusal(), "");
+  s.world.precision = "float";
+  expect_refusal({"particle 7", "velocity", "not finite in float"});
+  p.v[1][7] = 0;
+  p.rho[8] = 1e-60;
+  expect_refusal({"particle 8", "density of 1e-60", "positive in float"});
+  p.rho[8] = 1000;
+  EXPECT_EQ(refusal(), "");
+}
+
 TEST_F(check_input_test, boundary_particles_are_checked_too) {
   p.rho.back() = -1;
   expect_refusal({"particle " + std::to_string(p.size() - 1), "density"});

@@ -64,21 +64,23 @@ TEST(counting_sort, order_of_equal_keys_is_kept) {
   EXPECT_EQ(sorted(s, {5, 5, 1, 5, 1}, 3, team::omp(2)), (order{2, 4, 0, 1, 3}));
 }
 
-TEST(reorderer, moves_a_range_of_every_column_of_every_width) {
+TEST(reorderer, moves_every_column_of_every_width_and_leaves_the_rest) {
   for (const int threads : {1, 2, 3, 7}) {
     particle_set<3, double> p;
     p.resize(6);
+    p.carry(2);
     for (std::uint32_t i = 0; i < 6; ++i) {
       for (int d = 0; d < 3; ++d) p.x[d][i] = 10 * d + i, p.v[d][i] = -(10 * d + 1.0 * i);
       p.rho[i] = 100 + i;
       p.m[i] = 200 + i;
       p.id[i] = i;
+      p.carried[0][i] = 300 + i;
+      p.carried[1][i] = 400 + i;
       p.kind[i] = i < 3 ? particle_kind::fluid : particle_kind::boundary;
     }
     reorderer r;
-    const order source{5, 2, 4, 3};  // elements 2..5 become 5, 2, 4, 3
-    r.apply(p, 2, source, team::omp(threads));
-    const order expected{0, 1, 5, 2, 4, 3};
+    r.apply(p, order{3, 0, 2, 1}, team::omp(threads));
+    const order expected{3, 0, 2, 1, 4, 5};
     for (std::size_t k = 0; k < 6; ++k) {
       const std::uint32_t i = expected[k];
       EXPECT_EQ(p.id[k], i);
@@ -88,6 +90,8 @@ TEST(reorderer, moves_a_range_of_every_column_of_every_width) {
       }
       EXPECT_EQ(p.rho[k], 100 + i);
       EXPECT_EQ(p.m[k], 200 + i);
+      EXPECT_EQ(p.carried[0][k], 300 + i);
+      EXPECT_EQ(p.carried[1][k], 400 + i);
       EXPECT_EQ(p.kind[k], i < 3 ? particle_kind::fluid : particle_kind::boundary);
     }
   }

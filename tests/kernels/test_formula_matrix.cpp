@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "cloud.hpp"
+
+// Every backend x M x threads x dimension x precision x interaction x smoothing kernel that is built, on about 2000
+// particles, against an O(N^2) reference of the same precision and expression.
+namespace pairsum {
+namespace {
+
+using namespace test_kit;
+
+/// 1500 fluid and 500 boundary particles, about 30 neighbours each; every mass, density and velocity different.
+scene crowd(int dim) {
+  cloud c;
+  c.dim = dim;
+  c.fluid = 1500;
+  c.boundary = 500;
+  c.length = dim == 1 ? 100 : dim == 2 ? 14 : 6.5;
+  c.corner = -0.37;
+  return make_cloud(c);
+}
+
+class formula_matrix_test : public testing::TestWithParam<formula> {};
+INSTANTIATE_TEST_SUITE_P(every, formula_matrix_test, testing::ValuesIn(formulas()),
+                         [](const auto& i) { return testing::PrintToString(i.param); });
+
+TEST_P(formula_matrix_test, every_backend_agrees_for_every_M_and_thread_count) {
+  const formula& f = GetParam();
+  const scene s = crowd(f.dim);
+  const expectation e = registry::instance().make_reference(with(s.world, f))->brute_force(s.particles, some_threads());
+  for (const std::string& backend : backend_names())
+    for (const int M : {2, 3, 5, 7}) {
+      const auto sum = registry::instance().make_summation(with(s.world, f, backend, M));
+      const bool serial = sum->traits().threads == runtime::serial;
+      std::uint64_t bits = 0;
+      for (const int threads : {1, 2, 3, 7}) {
+        if (serial && threads > 1) continue;
+        workers w(sum->traits().threads, threads);
+        sum->load(s.particles, {});
+        sum->evaluate(w.get());
+        ASSERT_EQ(disagreement(sum->rates(), e), "") << backend << " M=" << M << " threads=" << threads;
+        if (threads == 1) bits = sum->fingerprint();
+        if (sum->traits().deterministic) {
+          ASSERT_EQ(sum->fingerprint(), bits) << backend << " M=" << M << " threads=" << threads;
+        }
+      }
+      const work_counts n = sum->count_work();
+      ASSERT_EQ(n.pairs_fluid_fluid, e.pairs_fluid_fluid) << backend << " M=" << M;
+      ASSERT_EQ(n.pairs_fluid_boundary, e.pairs_fluid_boundary) << backend << " M=" << M;
+    }
+}
+
+/// A bound that lets anything pass, or a state in which terms are zero, would prove nothing.
+TEST_P(formula_matrix_test, the_comparison_is_sharp) {
+  const formula& f = GetParam();
+  const scene s = crowd(f.dim);
+  const expectation e = registry::instance().make_reference(with(s.world, f))->brute_force(s.particles, some_threads());
+  EXPECT_GT(e.pairs_fluid_fluid, 10000u);
+  EXPECT_GT(e.pairs_fluid_boundary, 5000u);
+  const double eps =
+      f.precision == "float" ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
+  for (std::size_t c = 0; c < e.value.size(); ++c) {
+    std::vector<double> sharpness;
+    for (std::size_t k = 0; k < e.ids.size(); ++k) {
+      EXPECT_GT(e.magnitude[c][k], 0);
+      sharpness.push_back(e.bound[c][k] / e.magnitude[c][k] / eps);
+    }
+    std::ranges::sort(sharpness);
+    const double middle = sharpness[sharpness.size() / 2];
+    if (f.interaction == "count")
+      EXPECT_EQ(middle, 0) << "count is exact";
+    else
+      EXPECT_LT(middle, 400) << e.names[c];
+    RecordProperty("median_bound_in_eps_" + e.names[c], std::to_string(middle));
+  }
+}
+
+TEST(formula_matrix, knows_every_formula_of_the_library) {
+  const registry& r = registry::instance();
+  const std::size_t smoothed = std::ranges::count_if(r.interactions(), [&](auto& i) { return r.is_smoothed(i); });
+  const std::size_t plain = r.interactions().size() - smoothed;
+  EXPECT_EQ(formulas().size(), r.dims().size() * r.precisions().size() * (smoothed * r.smoothings().size() + plain));
+}
+
+}  // namespace
+}  // namespace pairsum
