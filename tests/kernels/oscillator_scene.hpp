@@ -5,15 +5,19 @@
 
 #include "core/random.hpp"
 #include "integrators/integrator.hpp"
-#include "oscillators.hpp"
 #include "scene.hpp"
 
+// A smooth problem for the tests of integrators: clusters of particles on springs that cross many cells.
 namespace pairsum::test_kit {
+
+/// The interactions `oscillators`, and `count`, which has no dynamics, with the backends naive and symmetric; 1D, 2D
+/// and 3D in double, 3D in float.
+const registry& oscillator_registry();
 
 constexpr std::uint32_t oscillator_count = 16;
 
 /// Four clusters of four particles, far apart from each other, that cross two or three cells in a unit of time; and a
-/// still boundary particle in two corners of Omega. H = 1.
+/// still boundary particle in two corners of Omega. H = 1. Every value is a float's.
 inline scene make_oscillators(int D, double kappa) {
   const counter_random random(3);
   scene s;
@@ -33,11 +37,11 @@ inline scene make_oscillators(int D, double kappa) {
     for (int d = 0; d < D; ++d) {
       const double place = d == 0 ? 5 * cluster : 5 * (cluster % 2);
       const double speed = d == 0 ? 3 - cluster % 2 : cluster >> d & 1 ? -2 : 2;
-      p.x[d][i] = fluid ? place + u(d, -0.12, 0.12) : i == oscillator_count ? -4 : 20;
-      p.v[d][i] = fluid ? speed + u(3 + d, -0.3, 0.3) : 0;
+      p.x[d][i] = fluid ? static_cast<float>(place + u(d, -0.12, 0.12)) : i == oscillator_count ? -4 : 20;
+      p.v[d][i] = fluid ? static_cast<float>(speed + u(3 + d, -0.3, 0.3)) : 0;
     }
-    p.rho[i] = u(6, 0.8, 1.2);
-    p.m[i] = u(7, 0.6, 1);
+    p.rho[i] = static_cast<float>(u(6, 0.8, 1.2));
+    p.m[i] = static_cast<float>(u(7, 0.6, 1));
     p.kind[i] = fluid ? particle_kind::fluid : particle_kind::boundary;
   }
   return s;
@@ -63,7 +67,8 @@ inline unknowns plus(unknowns y, long double a, const unknowns& k) {
   return y;
 }
 
-/// dy/dt by the formula of `oscillators` written down a second time, one particle at a time.
+/// dy/dt by the formula of `oscillators` written down a second time, one particle at a time; for particles of which
+/// those of one cluster alone are within H.
 inline unknowns derivative(const scene& s, double gravity, const unknowns& y) {
   const int D = s.world.dim;
   const long double kappa = s.world.constants.eos.B;
@@ -72,18 +77,14 @@ inline unknowns derivative(const scene& s, double gravity, const unknowns& y) {
     k[i] = {};
     for (int d = 0; d < D; ++d) k[i][d] = y[i][D + d];
     k[i][D + (D > 1)] = -gravity;
-    for (std::size_t j = 0; j < y.size(); ++j) {
-      long double r2 = 0, v_r = 0;
-      for (int d = 0; d < D; ++d) {
-        r2 += (y[i][d] - y[j][d]) * (y[i][d] - y[j][d]);
-        v_r += (y[i][d] - y[j][d]) * (y[i][D + d] - y[j][D + d]);
-      }
-      if (j == i || r2 >= 1) continue;
+    for (std::size_t j = i % 4; j < y.size(); j += 4) {
       const long double m = s.particles.m[j], rho_i = y[i][2 * D], rho_j = y[j][2 * D];
-      for (int d = 0; d < D; ++d)
-        k[i][D + d] -=
-            m * (4 * (1 + kappa * (rho_i + rho_j - 2)) * (y[i][d] - y[j][d]) + (y[i][D + d] - y[j][D + d]) / 2);
-      k[i][2 * D] += m * (kappa * v_r + rho_j - rho_i);
+      for (int d = 0; d < D; ++d) {
+        const long double r = y[i][d] - y[j][d], v = y[i][D + d] - y[j][D + d];
+        k[i][D + d] -= m * (4 * (1 + kappa * (rho_i + rho_j - 2)) * r + v / 2);
+        k[i][2 * D] += m * kappa * v * r;
+      }
+      k[i][2 * D] += m * (rho_j - rho_i);
     }
   }
   return k;

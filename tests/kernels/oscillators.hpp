@@ -1,13 +1,8 @@
 #pragma once
 #include <array>
 
-#include "backends/naive.hpp"
-#include "backends/symmetric.hpp"
-#include "interactions/count.hpp"
 #include "interactions/interaction.hpp"
-#include "sum/enrol_everywhere.hpp"
 
-// A smooth problem for the tests of integrators: clusters of particles on springs that cross many cells.
 namespace pairsum::test_kit {
 
 /// Damped springs between all particles within H, stiffer where it is denser; densities follow the motion and even out:
@@ -54,21 +49,5 @@ class oscillators {
  private:
   R kappa_;
 };
-
-using oscillator_backends = backend_list<naive, symmetric>;
-
-/// The registry of these tests: oscillators, and count, which has no dynamics.
-inline const registry& oscillator_registry() {
-  static const registry all = [] {
-    registry r;
-    enrol_everywhere<oscillators<1, double>>(r, oscillator_backends());
-    enrol_everywhere<oscillators<2, double>>(r, oscillator_backends());
-    enrol_everywhere<oscillators<3, double>>(r, oscillator_backends());
-    enrol_everywhere<oscillators<3, float>>(r, oscillator_backends());
-    enrol_everywhere<count<3, double>>(r, oscillator_backends());
-    return r;
-  }();
-  return all;
-}
 
 }  // namespace pairsum::test_kit
