@@ -12,54 +12,6 @@
 namespace pairsum {
 namespace {
 
-template <int D, class R>
-long double integral(double H) {
-  const wendland_c2<D, R> W(H);
-  const long double pi = std::numbers::pi_v<long double>;
-  const auto shell = [&](long double r) { return D == 1 ? 2 : D == 2 ? 2 * pi * r : 4 * pi * r * r; };
-  const int n = 2000;  // Simpson
-  long double sum = 0;
-  for (int k = 0; k <= n; ++k) {
-    const long double r = static_cast<long double>(H) * k / n;
-    sum += (k == 0 || k == n ? 1 : k % 2 ? 4 : 2) * shell(r) * W.value(static_cast<R>(r));
-  }
-  return sum * static_cast<long double>(H) / (3 * n);
-}
-
-TEST(wendland_c2, integral_is_1) {
-  for (const double H : {0.01188, 1.0, 50.0}) {
-    EXPECT_NEAR((integral<1, double>(H)), 1, 1e-10);
-    EXPECT_NEAR((integral<2, double>(H)), 1, 1e-10);
-    EXPECT_NEAR((integral<3, double>(H)), 1, 1e-10);
-    EXPECT_NEAR((integral<3, float>(H)), 1, 1e-5);
-  }
-}
-
-template <int D>
-void slope_is_the_derivative(double H) {
-  const wendland_c2<D, double> W(H);
-  const double h = 1e-5 * H, scale = W.value(0.0) / (H * H);
-  for (double q = 0.01; q < 0.99; q += 0.01) {
-    const double r = q * H;
-    EXPECT_NEAR(W.slope_over_r(r) / scale, (W.value(r + h) - W.value(r - h)) / (2 * h) / r / scale, 1e-6);
-    EXPECT_LT(W.slope_over_r(r), 0);
-    EXPECT_LT(W.value(r + h), W.value(r));
-  }
-  EXPECT_NEAR(W.slope_over_r(0.0), W.slope_over_r(1e-9 * H), 1e-7 * scale);
-  EXPECT_TRUE(std::isfinite(W.slope_over_r(0.0)));
-  EXPECT_LE(std::abs(W.value(H)), 1e-30 * W.value(0.0));
-  EXPECT_LE(std::abs(W.slope_over_r(H)), 1e-30 * scale);
-  EXPECT_EQ((wendland_c2<D, double>(0.5).value(0.5)), 0);
-  EXPECT_EQ((wendland_c2<D, double>(0.5).slope_over_r(0.5)), 0);
-}
-TEST(wendland_c2, slope_is_the_derivative_and_vanishes_at_H) {
-  for (const double H : {0.01188, 1.0}) {
-    slope_is_the_derivative<1>(H);
-    slope_is_the_derivative<2>(H);
-    slope_is_the_derivative<3>(H);
-  }
-}
-
 TEST(tait, is_its_formula) {
   const tait eos;
   EXPECT_EQ(eos.pressure(1000.0), 0);

@@ -115,5 +115,37 @@ TEST(running_error, of_exact_inputs_and_exact_operations) {
   EXPECT_EQ(select(true, two, tracked(1.0f)).v, 2.0f);
 }
 
+/// Of 20000 Gaussians exp(-9 (a/b)^2), down to those that underflow, how many are further from the truth than `scale`
+/// times their bound?
+int exponential_violations(long double scale) {
+  const counter_random random(7, 5);
+  int n = 0;
+  for (std::uint64_t k = 0; k < 20000; ++k) {
+    const float a = static_cast<float>(random.uniform(2 * k, 0, 4)),
+                b = static_cast<float>(random.uniform(2 * k + 1, 1, 2));
+    const tracked q = tracked(a) / tracked(b), y = exponential(tracked(-9) * (q * q));
+    const long double ratio = static_cast<long double>(a) / b, exact = std::exp(-9 * ratio * ratio);
+    n += !(std::abs(y.v - exact) <= scale * slack * y.e);
+  }
+  return n;
+}
+
+TEST(running_error, bound_holds_for_exponentials) { EXPECT_EQ(exponential_violations(1), 0); }
+TEST(running_error, check_rejects_bounds_of_exponentials_that_are_too_small) {
+  EXPECT_GT(exponential_violations(0.2L), 0);
+}
+
+TEST(running_error, of_exponentials) {
+  const double half_ulp = 0x1p-24;  // of 1
+  const tracked one = exponential(tracked(0.0f));
+  EXPECT_EQ(one.v, 1);
+  EXPECT_GT(one.e, half_ulp) << "exp may err by an ulp";
+  EXPECT_LT(one.e, 8 * half_ulp);
+  EXPECT_NEAR(exponential(tracked(0.0f, 1.0)).e, std::exp(1.0) - 1, 8 * half_ulp) << "the truth may be e";
+  const tracked nothing = exponential(tracked(-1000.0f));
+  EXPECT_EQ(nothing.v, 0);
+  EXPECT_GT(nothing.e, 0) << "underflow";
+}
+
 }  // namespace
 }  // namespace pairsum
