@@ -1,5 +1,6 @@
 // The density of SPH, rho_i = sum_j m_j W(|x_i - x_j|), as an interaction of one's own: summed by every algorithm of
 // the library, each checked against the library's reference.
+#include <cmath>
 #include <cstdio>
 #include <pairsum/pairsum.hpp>
 

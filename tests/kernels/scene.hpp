@@ -1,12 +1,11 @@
 #pragma once
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "cases/case.hpp"
 #include "core/error.hpp"
-#include "core/tbb_arena.hpp"
+#include "core/workers.hpp"
 #include "sum/registry.hpp"
 
 /// What the tests of the library share: small worlds, teams, and the comparison of rates with an
@@ -25,19 +24,7 @@ scene make_scene(std::string_view name, double dx, std::string_view state, std::
 /// The scene with other words in its setup.
 setup with(setup s, std::string_view backend, int M, std::string_view interaction = "ferrari09");
 
-/// The team a backend with these traits takes, with its arena. A serial backend gets an OpenMP
-/// team, for its index.
-class workers {
- public:
-  workers(runtime kind, int threads) : threads_(threads) {
-    if (kind == runtime::tbb) arena_.emplace(threads);
-  }
-  team get() { return arena_ ? team::tbb(threads_, *arena_) : team::omp(threads_); }
-
- private:
-  int threads_;
-  std::optional<tbb_arena> arena_;
-};
+using pairsum::workers;
 
 /// The names of all backends, unavailable ones left out.
 std::vector<std::string> backend_names();
