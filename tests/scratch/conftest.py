@@ -97,7 +97,8 @@ def tree(tmp_path_factory, additions):
     after = files(folder)
     done = configure(folder)
     assert done.returncode == 0, done.stdout
-    done = subprocess.run(["cmake", "--build", folder / "build", "--target", "pairsum", "--parallel", os.environ.get("PAIRSUM_JOBS", "2")],
+    jobs = os.environ.get("PAIRSUM_JOBS", "2")
+    done = subprocess.run(["cmake", "--build", folder / "build", "--target", "pairsum", "--parallel", jobs],
                           text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     assert done.returncode == 0, done.stdout[-8000:]
     return folder, before, after

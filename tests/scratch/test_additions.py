@@ -6,7 +6,7 @@ import pytest
 
 from conftest import REGISTRY, Addition, configure, copy, documented
 
-QUICK = ["--M", "2,4", "--threads", "1,2"]
+QUICK = ["--dx", "0.02", "--M", "2,4", "--threads", "1,2"]
 
 
 def changes(before, after):
@@ -31,7 +31,8 @@ def test_another_change_is_seen():
 
 
 def test_the_document_has_one_of_each():
-    assert {a.path.split("/")[1] for a in documented().values()} == {"backends", "smoothing", "interactions", "cases", "integrators"}
+    folders = [a.path.split("/")[1] for a in documented().values()]
+    assert sorted(folders) == ["backends", "cases", "integrators", "interactions", "smoothing"]
 
 
 def test_each_is_listed(listed):
