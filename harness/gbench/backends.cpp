@@ -8,8 +8,8 @@
 #include "harness/gbench/bench.hpp"
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
-#include "harness/verify/setup_of.hpp"
 #include "harness/verify/verifier.hpp"
+#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 namespace {

@@ -9,9 +9,9 @@
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
 #include "harness/run/interrupt.hpp"
-#include "harness/verify/setup_of.hpp"
 #include "integrators/integrator.hpp"
 #include "sum/check.hpp"
+#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 

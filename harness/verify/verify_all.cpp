@@ -5,8 +5,8 @@
 #include <map>
 
 #include "harness/measure/worker_team.hpp"
-#include "harness/verify/setup_of.hpp"
 #include "harness/verify/verifier.hpp"
+#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 namespace {

@@ -1,3 +1,16 @@
+# Every word of the registry is the name of a file.
+foreach(kind BACKENDS SMOOTHED_INTERACTIONS PLAIN_INTERACTIONS SMOOTHINGS CASES INTEGRATORS)
+  string(TOLOWER ${kind} folder)
+  string(REGEX REPLACE "^smoothings$" "smoothing" folder ${folder})
+  string(REGEX REPLACE "^(smoothed|plain)_" "" folder ${folder})
+  foreach(word IN LISTS PAIRSUM_ALL_${kind})
+    if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/${word}.hpp)
+      message(FATAL_ERROR "PAIRSUM_ALL_${kind} in kernels/registry.cmake names \"${word}\", "
+        "but there is no file kernels/${folder}/${word}.hpp")
+    endif()
+  endforeach()
+endforeach()
+
 # The options that restrict what is built. Each is "all" or a list of words; what is left out stays known to the library, which
 # names the option that brings it.
 set(PAIRSUM_ALL_INTERACTIONS ${PAIRSUM_ALL_SMOOTHED_INTERACTIONS} ${PAIRSUM_ALL_PLAIN_INTERACTIONS})

@@ -1,7 +1,10 @@
 # What every target of the project is compiled with.
+add_compile_options(-Wall -Wextra)
+
+# What the library and those who use it must agree on, since its templates are compiled by both.
 add_library(pairsum_options INTERFACE)
 target_compile_features(pairsum_options INTERFACE cxx_std_20)
-target_compile_options(pairsum_options INTERFACE -Wall -Wextra -fno-math-errno -fno-trapping-math)
+target_compile_options(pairsum_options INTERFACE -fno-math-errno -fno-trapping-math)
 if(PAIRSUM_NATIVE)
   target_compile_options(pairsum_options INTERFACE -march=native)
 endif()

@@ -65,7 +65,10 @@ struct running_error {
   /// The C library's exp is within 1 ulp, twice `rounded`; doubled again for safety.
   friend running_error exponential(const running_error& a) {
     const R v = std::exp(a.v);
-    return {v, std::abs(static_cast<double>(v)) * std::expm1(a.e) + 4 * rounded(v) + underflow};
+    constexpr double far = 700;  // beyond, e^a.e is no finite double
+    const double spread =
+        a.e < far ? std::exp(static_cast<double>(a.v)) * std::expm1(a.e) : std::numeric_limits<double>::infinity();
+    return {v, spread + 4 * rounded(v) + underflow};
   }
   friend running_error maximum(const running_error& a, const running_error& b) {
     return {a.v < b.v ? b.v : a.v, std::max(a.e, b.e)};

@@ -1,13 +1,12 @@
 #pragma once
 #include <memory>
-#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "cases/case.hpp"
 #include "core/error.hpp"
-#include "core/tbb_arena.hpp"
+#include "core/workers.hpp"
 #include "sum/registry.hpp"
 
 /// What the tests of the library share: small worlds, teams, and the comparison of rates with an
@@ -41,19 +40,7 @@ std::vector<formula> formulas();
 /// The setup with a formula's words.
 setup with(setup s, const formula& f, std::string_view backend = "naive", int M = 4);
 
-/// The team a backend with these traits takes, with its arena. A serial backend gets an OpenMP
-/// team, for its index.
-class workers {
- public:
-  workers(runtime kind, int threads) : threads_(threads) {
-    if (kind == runtime::tbb) arena_.emplace(threads);
-  }
-  team get() { return arena_ ? team::tbb(threads_, *arena_) : team::omp(threads_); }
-
- private:
-  int threads_;
-  std::optional<tbb_arena> arena_;
-};
+using pairsum::workers;
 
 /// The names of all backends, unavailable ones left out.
 std::vector<std::string> backend_names();

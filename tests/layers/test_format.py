@@ -18,7 +18,7 @@ def complaints(*paths):
 
 @pytest.mark.skipif(TOOL is None, reason="clang-format-14 is not installed")
 def test_sources_are_formatted():
-    paths = [p for top in ["kernels", "harness", "tests"] for p in sorted((SOURCE / top).rglob("*.?pp"))]
+    paths = [p for top in ["kernels", "harness", "tests", "examples"] for p in sorted((SOURCE / top).rglob("*.?pp"))]
     assert complaints(*paths) == ""
 
 

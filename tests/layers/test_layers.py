@@ -6,7 +6,9 @@ import pathlib
 import re
 
 SOURCE = pathlib.Path(os.environ["PAIRSUM_SOURCE"])
+UMBRELLA = "kernels/pairsum.hpp"  # for users; it may include all of the library, and no file of this project includes it
 ALLOWED = {  # folder: folders it may include, besides itself
+    UMBRELLA: ["core", "cases", "interactions", "smoothing", "sum", "integrators"],
     "core": [],
     "pattern": ["core"],
     "particles": ["core"],
@@ -15,7 +17,7 @@ ALLOWED = {  # folder: folders it may include, besides itself
     "interactions": ["core", "smoothing", "eos"],
     "cases": ["core", "particles", "eos"],
     "grid": ["core", "pattern", "particles"],
-    "sum": ["core", "pattern", "particles", "eos", "smoothing", "interactions", "grid"],
+    "sum": ["core", "pattern", "particles", "eos", "smoothing", "interactions", "grid", "cases"],
     "backends": ["core", "pattern", "particles", "grid", "interactions", "sum"],
     "integrators": ["core", "particles", "sum"],
     "harness/rows": ["core"],
@@ -31,7 +33,7 @@ ALLOWED = {  # folder: folders it may include, besides itself
     "harness/gbench": ["core", "cases", "integrators", "sum", "harness/*", "grid", "smoothing", "particles"],
 }
 NO_BACKEND_INCLUDES_ANOTHER = "backends"
-DOOR = {"sum/registry.hpp", "sum/setup.hpp", "sum/summation.hpp", "sum/reference.hpp", "sum/rate_table.hpp", "sum/grids.hpp",
+DOOR = {"sum/registry.hpp", "sum/setup.hpp", "sum/summation.hpp", "sum/reference.hpp", "sum/setup_of.hpp", "sum/rate_table.hpp", "sum/grids.hpp",
         "sum/check.hpp", "sum/probe.hpp", "sum/backend.hpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 FORBIDDEN_IN_LIBRARY = re.compile(r"#\s*include\s+<(chrono|iostream|fstream|cstdio|filesystem)>|\bgetenv\b|\bprintf\s*\(")
@@ -47,11 +49,13 @@ def allowed(folder, target):
 
 def complaints(path, text):
     """What is wrong with the includes of file `path` (relative to the root) with this text."""
-    folder = "/".join(path.split("/")[:2]) if path.startswith("harness/") else path.split("/")[1]
+    folder = path if path == UMBRELLA else folder_of(path) if path.startswith("harness/") else path.split("/")[1]
     found = []
     if folder not in ALLOWED:
         return [f"{path} is in a folder that no rule names"]
     for include in INCLUDE.findall(text):
+        if include in ("pairsum.hpp", "pairsum/pairsum.hpp"):
+            found.append(f"{path} includes everything: {include}")
         if "/" not in include:
             continue  # beside it, or generated
         target = folder_of(include)
@@ -78,9 +82,10 @@ def test_every_include_is_allowed():
 
 
 def test_every_folder_is_known():
-    folders = {p.relative_to(SOURCE / "kernels").parts[0] for p in (SOURCE / "kernels").rglob("*.?pp")}
+    folders = {p.relative_to(SOURCE / "kernels").parts[0] for p in (SOURCE / "kernels").rglob("*/*.?pp")}
     folders |= {"/".join(p.relative_to(SOURCE).parts[:2]) for p in (SOURCE / "harness").rglob("*.?pp")}
-    assert folders == set(ALLOWED)
+    assert folders | {UMBRELLA} == set(ALLOWED)
+    assert [p.name for p in (SOURCE / "kernels").glob("*.?pp")] == ["pairsum.hpp"]
 
 
 def test_the_checker_rejects():
@@ -95,6 +100,10 @@ def test_the_checker_rejects():
     assert complaints("harness/gbench/a.cpp", '#include "sum/block.hpp"\n')
     assert complaints("harness/new_folder/a.cpp", "")
     assert complaints("kernels/new_folder/a.hpp", "")
+    assert complaints("kernels/another.hpp", "")
+    assert complaints(UMBRELLA, '#include "grid/hashed_grid.hpp"\n')
+    assert complaints("harness/run/a.cpp", '#include "pairsum.hpp"\n')
+    assert complaints("kernels/cases/a.hpp", '#include "sum/setup.hpp"\n')
     assert not complaints("harness/cli/a.cpp", '#include "harness/run/runner.hpp"\n#include "sum/registry.hpp"\n')
     assert not complaints("harness/gbench/a.cpp", '#include "grid/hashed_grid.hpp"\n')
     assert not complaints("kernels/backends/a.hpp", '#include "sum/block.hpp"\n#include <vector>\n')

@@ -2,7 +2,7 @@
 #include "cases/case.hpp"
 #include "sum/setup.hpp"
 
-namespace pairsum::harness {
+namespace pairsum {
 
 /// The world of a case: Omega, dimension and constants; the words are left at their defaults.
 inline setup setup_of(const initial_condition& c) {
@@ -14,4 +14,4 @@ inline setup setup_of(const initial_condition& c) {
   return s;
 }
 
-}  // namespace pairsum::harness
+}  // namespace pairsum

@@ -1,0 +1,15 @@
+#include "core/workers.hpp"
+
+#include "core/tbb_arena.hpp"
+
+namespace pairsum {
+
+workers::workers(runtime kind, int threads) : team_(team::omp(threads)) {
+  if (kind != runtime::tbb) return;
+  arena_ = std::make_unique<tbb_arena>(threads);
+  team_ = team::tbb(threads, *arena_);
+}
+
+workers::~workers() = default;
+
+}  // namespace pairsum

@@ -1,0 +1,22 @@
+#pragma once
+#include <memory>
+
+#include "core/team.hpp"
+
+namespace pairsum {
+
+/// A team with what it needs to live: threads for whoever has none to hand in. Keep it while its team works.
+class workers {
+ public:
+  /// `threads` threads of that kind; serial backends index with OpenMP threads and sum on one.
+  workers(runtime kind, int threads);
+  ~workers();
+
+  const team& get() const { return team_; }
+
+ private:
+  std::unique_ptr<tbb_arena> arena_;
+  team team_;
+};
+
+}  // namespace pairsum

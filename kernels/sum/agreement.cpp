@@ -1,0 +1,23 @@
+#include "sum/agreement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pairsum {
+
+double share_of_bound(const rate_table& rates, const expectation& expected) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (rates.names != expected.names) return infinity;
+  double largest = 0;
+  for (std::size_t c = 0; c < expected.names.size(); ++c)
+    for (std::size_t k = 0; k < expected.ids.size(); ++k) {
+      const double distance = std::abs(rates.columns[c][expected.ids[k]] - expected.value[c][k]);
+      const double bound = expected.bound[c][k];
+      if (std::isnan(distance) || !std::isfinite(bound)) return infinity;
+      if (distance > 0) largest = std::max(largest, distance / bound);
+    }
+  return largest;
+}
+
+}  // namespace pairsum

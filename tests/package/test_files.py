@@ -1,0 +1,62 @@
+"""What is installed, and what its CMake files say."""
+
+import pytest
+
+from conftest import BUILD, SOURCE
+
+
+def traces(folder):
+    """Files that name the source or the build folder."""
+    names = [str(path).encode() + end for path in (SOURCE, BUILD) for end in (b"/", b'"', b";", b"\0", b"\n", b" ")]
+    return [p for p in sorted(folder.rglob("*")) if p.is_file() and any(name in p.read_bytes() for name in names)]
+
+
+def test_no_file_names_the_trees(prefix, tmp_path):
+    assert traces(prefix) == []
+    (tmp_path / "a.cmake").write_text(f"include({SOURCE}/kernels/registry.cmake)\n")
+    assert traces(tmp_path) == [tmp_path / "a.cmake"]
+
+
+def test_every_header_is_there(prefix):
+    kernels = SOURCE / "kernels"
+    wanted = {p.relative_to(kernels) for p in kernels.rglob("*.hpp")}
+    folder = prefix / "include/pairsum"
+    installed = {p.relative_to(folder) for p in folder.rglob("*") if p.is_file()}
+    generated = {"sum/all_backends.hpp", "smoothing/all_smoothings.hpp"}
+    assert {str(p) for p in installed - wanted} == generated
+    assert wanted <= installed
+
+
+@pytest.mark.parametrize("program", ["pairsum", "pairsum_bench"])
+def test_programs_are_there_if_they_are_built(prefix, program):
+    assert (prefix / "bin" / program).exists() == (BUILD / "bin" / program).exists()
+
+
+PROJECT = """cmake_minimum_required(VERSION 3.25)
+project(finds LANGUAGES CXX)
+find_package(pairsum {version} REQUIRED)
+get_target_property(options pairsum::options INTERFACE_COMPILE_OPTIONS)
+message(STATUS "options: ${{options}}")
+message(STATUS "dims: ${{pairsum_DIMS}}")
+"""
+
+
+def finds(project, tmp_path, version):
+    (tmp_path / "CMakeLists.txt").write_text(PROJECT.format(version=version))
+    return project(tmp_path)[1]
+
+
+def test_options_come_along_but_no_warnings(project, built, tmp_path):
+    done = finds(project, tmp_path, "0.1")
+    assert done.returncode == 0, done.stdout
+    assert "-fno-math-errno;-fno-trapping-math" in done.stdout
+    assert ("-march=native" in done.stdout) == (built("NATIVE") == ["ON"])
+    assert "-Wall" not in done.stdout
+    assert f"dims: {';'.join(built('DIMS'))}\n" in done.stdout
+
+
+@pytest.mark.parametrize("version", ["0.0.1", "0.2", "1.0"])
+def test_another_version_is_refused(project, tmp_path, version):
+    done = finds(project, tmp_path, version)
+    assert done.returncode != 0
+    assert "compatible" in done.stdout and "pairsum" in done.stdout
