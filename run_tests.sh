@@ -55,7 +55,7 @@ choose_python pytest jsonschema numpy matplotlib || exit
 command -v cmake >/dev/null || stop "$exit_missing" "cmake is not installed (run without --no-install)"
 
 heading "build"
-step "configuring the build" cmake --preset test -DPython3_EXECUTABLE="$PYTHON" -DPAIRSUM_TEST_PYTHON="$PYTHON"
+step "configuring the build" cmake --preset test -DPython3_EXECUTABLE="$PYTHON"
 step "the build" cmake --build --preset test --parallel "${jobs:-$(jobs_for 1500)}"
 
 heading "tests"

@@ -33,6 +33,8 @@ nlohmann::json as_json() {
          {"symmetric", b.traits.symmetric},
          {"deterministic", b.traits.deterministic},
          {"unavailable", b.unavailable.empty() ? nlohmann::json() : nlohmann::json(b.unavailable)}});
+  for (const std::string& i : r.interactions())
+    if (!r.is_smoothed(i)) all["plain_interactions"].push_back(i);  // those that take no smoothing kernel
   all["unavailable"] = nlohmann::json::array();
   for (const missing_word& m : r.missing())
     all["unavailable"].push_back({{"kind", m.kind}, {"word", m.word}, {"option", m.option}});

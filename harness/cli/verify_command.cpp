@@ -22,7 +22,7 @@ struct verify_options {
 
 /// The words of an option; "all" stands for `every`.
 std::vector<std::string> words_or_all(const std::string& option, const std::string& text,
-                                      std::vector<std::string> every) {
+                                      const std::vector<std::string>& every) {
   return text == "all" ? every : parse_words(option, text);
 }
 

@@ -21,7 +21,7 @@ std::map<std::string, std::uint64_t> cache_sizes() {
       hwloc_obj_type_t type;
     } levels[] = {{"L1d", HWLOC_OBJ_L1CACHE}, {"L2", HWLOC_OBJ_L2CACHE}, {"L3", HWLOC_OBJ_L3CACHE}};
     for (const auto& level : levels)
-      if (const hwloc_obj_t o = hwloc_get_obj_by_type(topology, level.type, 0)) sizes[level.name] = o->attr->cache.size;
+      if (hwloc_obj_t o = hwloc_get_obj_by_type(topology, level.type, 0)) sizes[level.name] = o->attr->cache.size;
   }
   hwloc_topology_destroy(topology);
   return sizes;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace pairsum::harness {
@@ -20,7 +21,7 @@ void progress::show(double done, const std::string& what) {
   if (share > 0.01) {
     double seconds = elapsed / share - elapsed;
     if (budget_s_ > 0) seconds = std::clamp(budget_s_ - elapsed, 0.0, seconds);
-    const int left = static_cast<int>(seconds + 0.5);
+    const auto left = std::lround(seconds);
     eta = fmt::format("{}:{:02}", left / 60, left % 60);
   }
   fmt::print(stderr, "\r\x1b[K[{}{}] {:3.0f} %  ETA {}  {}", std::string(filled, '#'), std::string(width - filled, '.'),

@@ -63,7 +63,7 @@ class speedup {
   /// @param base what the ratio's base values are, with their median time [s]
   /// @param ratio base time over own time
   /// Throws pairsum::error if the base has no name or no positive time.
-  speedup(speedup_base base, ratio_estimate ratio) : base_(std::move(base)), ratio_(std::move(ratio)) {
+  speedup(speedup_base base, const ratio_estimate& ratio) : base_(std::move(base)), ratio_(ratio) {
     if (base_.name.empty() || !(base_.time_s > 0))
       throw error("a speedup needs a base with a name and a positive time");
   }

@@ -11,8 +11,9 @@
 
 namespace pairsum {
 
-/// Fluid at rest in the unit cube, round(1/dx^dim) particles, no boundary. place(i, n) says where particle i of n lies;
-/// ids then follow the cells of width dx, x fastest, as on a lattice.
+/// Fluid at rest in the unit cube, round(1/dx^dim) particles, no boundary. place(i, n) says where particle i of n lies,
+/// from 0 to 1 between the planes dx/2 inside the faces (so that the perturbed state stays in Omega); ids then follow
+/// the cells of width dx, x fastest, as on a lattice.
 template <class Place>
 initial_condition random_points(std::string_view name, const case_parameters& c, Place&& place) {
   if (c.dim < 1 || c.dim > 3)
@@ -39,7 +40,7 @@ initial_condition random_points(std::string_view name, const case_parameters& c,
   particle_table& p = made.particles = particle_table(c.dim);
   p.resize(n);
   for (std::size_t i = 0; i < n; ++i)
-    for (int d = 0; d < c.dim; ++d) p.x[d][i] = points[i][d];
+    for (int d = 0; d < c.dim; ++d) p.x[d][i] = c.dx / 2 + (1 - c.dx) * points[i][d];
   p.rho.assign(n, made.eos.rho0);
   p.m.assign(n, made.eos.rho0 / count);
   p.kind.assign(n, particle_kind::fluid);

@@ -1,8 +1,10 @@
 """What the programs print and write when all is well."""
 
+import itertools
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import time
@@ -27,10 +29,12 @@ def backends(listed):
     return names
 
 
-def number_of_sums(listed, M, threads, interactions=2):
+def number_of_sums(listed, M, threads):
     """How many sums `verify` makes: serial backends once, the others with each number of threads."""
     runs = sum(1 if b["threads"] == "serial" else threads for b in listed["backends"] if b["unavailable"] is None)
-    return interactions * M * runs
+    plain = len(listed["plain_interactions"])
+    formulas = (len(listed["interactions"]) - plain) * len(listed["smoothings"]) + plain
+    return len(listed["dims"]) * len(listed["precisions"]) * formulas * M * runs
 
 
 def schema_errors(path):
@@ -54,7 +58,9 @@ def test_help_teaches(pairsum):
 
 def test_number_of_sums():
     backends = [{"threads": t, "unavailable": u} for t, u in [("serial", None), ("omp", None), ("tbb", "no TBB")]]
-    assert number_of_sums({"backends": backends}, 2, 3) == 2 * 2 * (1 + 3)
+    built = {"backends": backends, "dims": [2, 3], "precisions": ["double"], "interactions": ["a", "count"], "smoothings": ["s", "t"],
+             "plain_interactions": ["count"]}
+    assert number_of_sums(built, 2, 3) == 2 * (2 + 1) * 2 * (1 + 3)
 
 
 def test_list_and_its_json_agree(pairsum, listed):
@@ -106,6 +112,47 @@ def test_verify_says_how_many_agree(pairsum, listed):
     assert done.returncode == 0, done.stdout
     n = number_of_sums(listed, M=2, threads=2)
     assert done.stdout.splitlines()[-1] == f"{n} of {n} sums agree with the reference"
+    for words in itertools.product(listed["dims"], listed["precisions"], listed["smoothings"]):
+        dim, precision, smoothing = words
+        assert re.search(rf"^{dim}D +{precision} +ferrari09 +{smoothing} +\d+ sums ", done.stdout, re.M), words
+
+
+def test_verify_can_say_each_sum(pairsum):
+    done = pairsum("verify", "--dim", "3", "--precision", "double", "--interaction", "ferrari09", "--smoothing", "wendland_c2",
+                   "--backend", "naive,symmetric_omp", "--dx", "0.08", "--M", "2,6", "--threads", "1,3", "--each")
+    lines = [line for line in done.stdout.splitlines() if "threads=" in line]
+    assert done.returncode == 0 and len(lines) == 2 * (1 + 2)
+    assert all(re.search(r"M=[26] +threads=[13] +\d", line) for line in lines)
+
+
+def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
+    out = tmp_path / "rows.jsonl"
+    factors = {"precision": listed["precisions"], "interaction": listed["interactions"], "smoothing": listed["smoothings"][:2],
+               "order": ["lattice", "shuffled", "morton"], "integrator": ["euler", "rk4"]}
+    options = [text for name, words in factors.items() for text in (f"--{name}", ",".join(words))]
+    done = pairsum("run", "--case", "random_clustered", "--dx", "0.2", "--M", "4", "--threads", "1", "--backend", "naive,symmetric",
+                   "--steps", "1", "--repetitions", "1", *options, "--out", out)
+    assert done.returncode == 0, done.stderr
+    points = [row["point"] for row in map(json.loads, out.read_text().splitlines()) if row["kind"] == "sample"]
+    plain = len(listed["plain_interactions"])
+    formulas = (len(listed["interactions"]) - plain) * 2 + plain
+    assert len(points) == len({json.dumps(p, sort_keys=True) for p in points}) == 2 * 3 * 2 * formulas * len(listed["precisions"])
+    assert {p["smoothing"] for p in points if p["interaction"] == "count"} == {"none"}
+    assert schema_errors(out) == []
+    for words in ["double, monaghan94", "rk4, order shuffled"]:
+        assert words in done.stdout
+    assert pairsum("report", out).returncode == 0
+
+
+@pytest.mark.parametrize("case, dim", [("dam_break", 2), ("lattice", 1), ("random_uniform", 1), ("random_uniform", 2),
+                                       ("random_clustered", 2), ("random_uniform", 3)])
+def test_cases_run_in_their_dimensions(pairsum, listed, tmp_path, case, dim):
+    if dim not in listed["dims"]:
+        pytest.skip(f"{dim}D is not built")
+    done = pairsum("run", "--case", case, "--dim", str(dim), "--dx", "0.05", "--state", "perturbed", "--M", "5", "--threads", "1",
+                   "--integrator", "predictor_corrector", "--steps", "3", "--repetitions", "1", "--out", tmp_path / "rows.jsonl")
+    assert done.returncode == 0, done.stderr
+    assert "FAILED" not in done.stdout
 
 
 def test_interrupt_leaves_valid_rows(pairsum, tmp_path):

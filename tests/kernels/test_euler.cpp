@@ -60,7 +60,7 @@ TEST_P(euler_test, steps_continue_from_the_new_state) {
   const double dt = 1e-4;
   const auto one = registry::instance().make_summation(with(s.world, GetParam(), 4));
   const auto two = registry::instance().make_summation(with(s.world, GetParam(), 4));
-  workers w(one->traits().threads, 2);
+  workers w(one->traits().threads, 1);
   const auto step = [&](summation& sum) {
     find_integrator("euler").step(
         sum, dt, 9.81, [&] { sum.evaluate(w.get()); }, w.get());

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/random.hpp"
+#include "core/tbb_arena.hpp"
 #include "indexed_scene.hpp"
 
 namespace pairsum {

@@ -42,7 +42,7 @@ class symmetries_test : public testing::TestWithParam<std::string> {
   }
   static rate_table rates(const scene& s, const formula& f, int M, const std::vector<std::uint32_t>& order = {}) {
     const auto sum = registry::instance().make_summation(with(s.world, f, GetParam(), M));
-    workers w(sum->traits().threads, 2);
+    workers w(sum->traits().threads, 1);
     sum->load(s.particles, order);
     sum->evaluate(w.get());
     return sum->rates();
