@@ -6,33 +6,19 @@
 
 using namespace pairsum;
 
-// What a particle brings (its mass), what is summed (rho), and what a pair adds to both of its particles.
+// A particle brings its mass; what is summed is a density (kg/m3); a pair adds to both of its particles.
 struct density {
-  static constexpr std::string_view name = "density";
+  static constexpr std::string_view name = "density", rate_name = "rho";
   static constexpr int dim = 3;
   using real = double;
-  template <class T>
-  struct particle {
-    T m;
-    static constexpr auto fields() { return std::make_tuple(&particle::m); }
-  };
-  template <class T>
-  struct rates {
-    T rho;  // kg/m3
-    static constexpr auto fields() { return std::make_tuple(&rates::rho); }
-    static constexpr std::array<std::string_view, 1> names{"rho"};
-  };
-
-  wendland_c2<3, double> W;
+  template <class T> using particle = T;
+  template <class T> using rates = T;
+  wendland_c2<dim, real> W;
   explicit density(const physics& p) : W(p.H) {}
-  template <class T>
-  particle<T> derive(const particle_state<3, T>& s) const {
-    return {s.m};
-  }
-  template <class T>
-  contributions<rates<T>> pair(const vec<3, T>&, const T& r2, const particle<T>& i, const particle<T>& j) const {
+  template <class T> T derive(const particle_state<dim, T>& s) const { return s.m; }
+  template <class T> contributions<T> pair(const vec<dim, T>&, const T& r2, const T& m_i, const T& m_j) const {
     const T w = W.value(square_root(r2));
-    return {{j.m * w}, {i.m * w}};
+    return {m_j * w, m_i * w};
   }
 };
 

@@ -7,9 +7,9 @@
 #include "core/column.hpp"
 #include "core/vec.hpp"
 
-/// Structs of a few named quantities (what a particle brings to a pair, what a pair gives back) kept as one column per
-/// scalar. Such a struct lists its fields once, in `static constexpr auto fields()`: a tuple of member pointers; a
-/// field is a scalar or a vec. Columns, loads, stores and sums are derived from that at compile time.
+/// A few quantities (what a particle brings to a pair, what a pair gives back) kept as one column per scalar: either a
+/// struct that lists its fields once, in `static constexpr auto fields()`, a tuple of member pointers to scalars or
+/// vecs; or a single scalar or vec. Columns, loads, stores and sums are derived from that at compile time.
 namespace pairsum {
 
 namespace fields_detail {
@@ -36,6 +36,11 @@ struct member<F S::*> {
   using type = field<F>;
 };
 
+template <class S>
+concept is_struct = requires {
+  S::fields();
+};
+
 template <class S, class F>
 [[gnu::always_inline]] inline void each_member(F&& f) {
   constexpr auto list = S::fields();
@@ -45,7 +50,10 @@ template <class S, class F>
 
 template <class S>
 constexpr int count() {
-  return []<class... P>(std::tuple<P...>) { return (member<P>::type::width + ... + 0); }(S::fields());
+  if constexpr (is_struct<S>)
+    return []<class... P>(std::tuple<P...>) { return (member<P>::type::width + ... + 0); }(S::fields());
+  else
+    return field<S>::width;
 }
 
 }  // namespace fields_detail
@@ -57,11 +65,17 @@ inline constexpr int field_count = fields_detail::count<S>();
 /// Calls f(scalar, slot) on every scalar of s, slots counting from 0 in the order of the fields.
 template <class S, class F>
 [[gnu::always_inline]] inline void each_scalar(S&& s, F&& f) {
+  using plain = std::remove_cvref_t<S>;
   int slot = 0;
-  fields_detail::each_member<std::remove_cvref_t<S>>([&](auto p) __attribute__((always_inline)) {
-    using field = typename fields_detail::member<decltype(p)>::type;
-    for (int d = 0; d < field::width; ++d) f(field::at(s.*p, d), slot++);
-  });
+  if constexpr (fields_detail::is_struct<plain>) {
+    fields_detail::each_member<plain>([&](auto p) __attribute__((always_inline)) {
+      using field = typename fields_detail::member<decltype(p)>::type;
+      for (int d = 0; d < field::width; ++d) f(field::at(s.*p, d), slot++);
+    });
+  } else {
+    using field = fields_detail::field<plain>;
+    for (; slot < field::width; ++slot) f(field::at(s, slot), slot);
+  }
 }
 
 /// A struct of zeros.
@@ -76,7 +90,10 @@ template <class S>
 /// a += b, field by field.
 template <class S>
 [[gnu::always_inline]] inline void add(S& a, const S& b) {
-  fields_detail::each_member<S>([&](auto p) __attribute__((always_inline)) { a.*p += b.*p; });
+  if constexpr (fields_detail::is_struct<S>)
+    fields_detail::each_member<S>([&](auto p) __attribute__((always_inline)) { a.*p += b.*p; });
+  else
+    a += b;
 }
 
 /// Where the columns of S begin; element i of every column together is the struct of particle i.
@@ -112,11 +129,7 @@ template <class S>
 class field_columns {
  public:
   void resize(std::size_t n) {
-    int slot = 0;
-    fields_detail::each_member<S>([&](auto p) {
-      using field = typename fields_detail::member<decltype(p)>::type;
-      for (int d = 0; d < field::width; ++d) data_[slot++].resize(n * sizeof(typename field::scalar));
-    });
+    each_scalar(zero<S>(), [&](const auto& a, int slot) { data_[slot].resize(n * sizeof a); });
     size_ = n;
   }
   std::size_t size() const { return size_; }

@@ -29,8 +29,8 @@ struct contributions {
   Rates to_i, to_j;
 };
 
-/// What an interaction without a boundary part keeps of a boundary particle: nothing.
-struct no_boundary_particle {
+/// What a particle brings of which only the place matters.
+struct nothing {
   static constexpr auto fields() { return std::tuple<>{}; }
 };
 
@@ -45,7 +45,8 @@ concept has_boundary = requires {
 ///   name, dim, real        the word for it, the dimension, the working precision
 ///   I(physics)             takes the constants
 ///   particle<T>            what a fluid particle brings to a pair, derived once per summation by derive()
-///   rates<T>               what is summed
+///   rates<T>               what is summed; both are structs with fields(), or a single scalar or vec, see
+///   core/fields.hpp rate_name              names the rates if they are a single scalar or vec; a struct has `names`
 ///   pair(r, r2, i, j)      both contributions of a fluid pair; r = x_i - x_j, r2 = r.r < H^2; a backend that wants one
 ///                          side takes .to_i and the compiler drops the rest
 ///
@@ -73,7 +74,7 @@ concept interaction = requires(const I& f, const particle_state<I::dim, typename
 namespace interaction_detail {
 template <class I, class T>
 struct boundary_particle {
-  using type = no_boundary_particle;
+  using type = nothing;
 };
 template <has_boundary I, class T>
 struct boundary_particle<I, T> {

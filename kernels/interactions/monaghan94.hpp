@@ -32,7 +32,7 @@ class monaghan94 {
     }
   };
   template <class T>
-  using boundary_particle = no_boundary_particle;  // its place is all that matters
+  using boundary_particle = nothing;  // its place is all that matters
   template <class T>
   struct rates {
     T drho;        ///< kg/(m3 s)
@@ -49,7 +49,7 @@ class monaghan94 {
     return {s.v, s.m, s.rho, eos_.pressure(s.rho) / (s.rho * s.rho), eos_.sound_speed(s.rho)};
   }
   template <class T>
-  no_boundary_particle derive_boundary(const particle_state<D, T>&) const {
+  nothing derive_boundary(const particle_state<D, T>&) const {
     return {};
   }
 
@@ -69,7 +69,7 @@ class monaghan94 {
   }
 
   template <class T>
-  rates<T> boundary(const vec<D, T>& r, const T& r2, const particle<T>&, const no_boundary_particle&) const {
+  rates<T> boundary(const vec<D, T>& r, const T& r2, const particle<T>&, const nothing&) const {
     const T s = T(r0_2_) / r2;
     const T a = T(R(wall_strength)) * (s * s - s) / r2;
     return {T(0), a * r};

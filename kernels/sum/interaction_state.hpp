@@ -85,7 +85,7 @@ class interaction_state : public state<I::dim, typename I::real> {
 
   rate_table rates() const override {
     rate_table table;
-    table.names = rate_names<rates_of<I>>();
+    table.names = rate_names<I>();
     table.columns.assign(field_count<rates_of<I>>, std::vector<double>(this->rows_, 0.0));
     for (std::size_t i = 0; i < view_.fluid_count; ++i)
       each_scalar(view_.u.load(i), [&](const auto& a, int slot) {

@@ -137,10 +137,10 @@ class reference_of final : public reference {
   expectation evaluate(const world& w, const std::vector<std::uint32_t>& ids, const team& t,
                        Candidates&& candidates) const {
     expectation out;
-    out.names = rate_names<rates_of<I>>();
+    out.names = rate_names<I>();
     out.ids = ids;
     for (auto* c : {&out.value, &out.bound, &out.magnitude}) c->assign(slots, std::vector<double>(ids.size()));
-    constexpr bool exact = std::is_integral_v<std::remove_cvref_t<decltype(first_scalar())>>;
+    const bool exact = sums_integers();
     const R boundary_reach = static_cast<R>(pairsum::boundary_reach<I>()) * H_;
     std::atomic<std::uint64_t> fluid_sides = 0, boundary_pairs = 0;
     constexpr std::size_t piece = 256;
@@ -187,9 +187,12 @@ class reference_of final : public reference {
     return out;
   }
 
-  static auto first_scalar() {
-    using first = std::remove_cvref_t<decltype(std::get<0>(rates::fields()))>;
-    return typename fields_detail::member<first>::type::scalar{};
+  /// Are the rates whole numbers, which have no rounding?
+  static bool sums_integers() {
+    bool all = true;
+    each_scalar(zero<rates>(),
+                [&](const auto& a, int) { all = all && std::is_integral_v<std::remove_cvref_t<decltype(a)>>; });
+    return all;
   }
 
   I formula_;

@@ -36,7 +36,7 @@ def test_an_interaction_that_lies_is_found_out(project, example, built):
         pytest.skip("symmetric is not in this build")
     main = example / "main.cpp"
     text = main.read_text()
-    lie = text.replace("{i.m * w}", "{1.001 * i.m * w}").replace("all_backends{}", "backend_list<symmetric>{}")
+    lie = text.replace("m_i * w}", "1.001 * m_i * w}").replace("all_backends{}", "backend_list<symmetric>{}")
     assert lie.count("1.001") == 1 and lie.count("backend_list<symmetric>") == 1
     main.write_text(lie)
     done = run(project, example)

@@ -83,3 +83,31 @@ def test_a_word_without_a_file_is_refused(tmp_path, registry, path):
     assert done.returncode != 0
     message = " ".join(done.stdout.split())
     assert f"there is no file {path}" in message and registry in message
+
+
+def test_what_was_left_out_is_listed_with_the_option_that_brings_it(listed, pairsum):
+    missing = {(m["kind"], m["word"]): m["option"] for m in listed["unavailable"]}
+    assert missing[("dimension", "3")] == "PAIRSUM_DIMS" and ("dimension", "2") not in missing
+    assert missing[("precision", "float")] == "PAIRSUM_PRECISIONS"
+    assert missing[("interaction", "monaghan94")] == "PAIRSUM_INTERACTIONS"
+    assert missing[("smoothing kernel", "gaussian")] == "PAIRSUM_SMOOTHINGS"
+    assert "PAIRSUM_BACKENDS" in {b["name"]: b["unavailable"] for b in listed["backends"]}["naive"]
+    assert "unavailable" in pairsum("list").stdout
+
+
+@pytest.mark.parametrize("words, option", [(["--precision", "float"], "PAIRSUM_PRECISIONS"), (["--dim", "3"], "PAIRSUM_DIMS"),
+                                           (["--interaction", "count"], "PAIRSUM_INTERACTIONS"),
+                                           (["--smoothing", "gaussian"], "PAIRSUM_SMOOTHINGS"),
+                                           (["--backend", "naive"], "PAIRSUM_BACKENDS")])
+def test_what_was_left_out_is_refused_with_the_option_that_brings_it(pairsum, words, option):
+    here = {"--dim": "2", "--interaction": "my_pairs", "--smoothing": "my_kernel", "--backend": "my_sum", **dict([words])}
+    done = pairsum("run", *[word for pair in here.items() for word in pair])
+    assert done.returncode == 2 and f"-D{option}=" in done.stderr and done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("option, valid", [("DIMS=4", "1;2;3"), ("DIMS=", "1;2;3"), ("PRECISIONS=half", "double;float"),
+                                           ("SMOOTHINGS=gauss", "wendland_c2"), ("BACKENDS=gpu", "naive")])
+def test_an_option_with_a_wrong_word_is_refused(tmp_path, option, valid):
+    done = configure(copy(tmp_path), "-DPAIRSUM_HARNESS=OFF", f"-DPAIRSUM_{option}")
+    assert done.returncode != 0
+    assert option.split("=")[0] in done.stdout and valid in done.stdout
