@@ -30,7 +30,11 @@ exact_rates exactly(const particle_table& p, const setup& world) {
         {p.x[0][i], p.x[1][i], p.x[2][i]}, {p.v[0][i], p.v[1][i], p.v[2][i]}, p.rho[i], p.m[i], i};
   };
   std::vector<formula::particle<long double>> derived(p.size());
-  for (std::uint32_t i = 0; i < p.size(); ++i) derived[i] = f.derive(state(i));
+  std::vector<vec<3, long double>> x(p.size());
+  for (std::uint32_t i = 0; i < p.size(); ++i) {
+    derived[i] = f.derive(state(i));
+    x[i] = state(i).x;
+  }
   const long double H = world.constants.H;
   exact_rates u;
   u.value.resize(p.size());
@@ -45,7 +49,8 @@ exact_rates exactly(const particle_table& p, const setup& world) {
     };
     for (std::uint32_t j = 0; j < p.size(); ++j) {
       if (j == i) continue;
-      const vec<3, long double> r = state(i).x - state(j).x;
+      if (std::abs(x[i][0] - x[j][0]) > H) continue;
+      const vec<3, long double> r = x[i] - x[j];
       const long double r2 = r.squaredNorm();
       if (p.kind[j] == particle_kind::fluid) {
         if (r2 < H * H) take(f.pair(r, r2, derived[i], derived[j]).to_i);
