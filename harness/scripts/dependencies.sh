@@ -6,7 +6,7 @@ build_packages=(g++ cmake make ninja-build pkg-config git libbenchmark-dev libtb
   nlohmann-json3-dev libhwloc-dev libcli11-dev libfmt-dev)
 plots_packages=(python3-numpy python3-matplotlib)
 tests_packages=(libgtest-dev librapidcheck-dev python3-jsonschema python3-pytest
-  clang-14 libomp-14-dev libclang-rt-14-dev clang-format-14 clang-tidy-14 gcovr)
+  clang-14 libomp-14-dev libclang-rt-14-dev clang-format-14 clang-tidy-14)
 
 exit_missing=3 # what a script exits with when something it needs is not installed
 

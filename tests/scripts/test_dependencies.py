@@ -40,7 +40,7 @@ def packages(sandbox, groups):
 
 def test_the_groups_have_no_package_twice(sandbox):
     every = packages(sandbox, "build plots tests")
-    assert len(every) == len(set(every)) == 25
+    assert len(every) == len(set(every)) == 24
     assert {"g++", "python3-numpy", "clang-14"} <= set(every)
 
 
