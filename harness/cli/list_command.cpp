@@ -33,6 +33,7 @@ nlohmann::json as_json() {
          {"symmetric", b.traits.symmetric},
          {"deterministic", b.traits.deterministic},
          {"unavailable", b.unavailable.empty() ? nlohmann::json() : nlohmann::json(b.unavailable)}});
+  all["plain_interactions"] = nlohmann::json::array();
   for (const std::string& i : r.interactions())
     if (!r.is_smoothed(i)) all["plain_interactions"].push_back(i);  // those that take no smoothing kernel
   all["unavailable"] = nlohmann::json::array();

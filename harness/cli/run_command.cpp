@@ -78,7 +78,8 @@ void add_run_command(CLI::App& app, action& chosen) {
   command->add_option("--order", o->order, "orders of memory at the start, a list: lattice, shuffled, morton")
       ->capture_default_str();
   command->add_option("--outside", r.outside, "particles outside Omega: error or drop")->capture_default_str();
-  command->add_option("--seed", r.seed, "of the perturbation and of the order of measuring")->capture_default_str();
+  command->add_option("--seed", r.seed, "of the perturbation, of random places and of the order of measuring")
+      ->capture_default_str();
   command->add_option("--out", o->out,
                       "rows file; appended to if it exists (default: RESULTS/STUDY/HOST-UTC-GIT.jsonl)");
   command->add_option("--results", o->results, "folder of the default rows file")->capture_default_str();

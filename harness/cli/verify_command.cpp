@@ -88,7 +88,10 @@ int verify(const verify_options& o) {
   q.precisions = words_or_all("--precision", o.precision, r.precisions());
   q.interactions = words_or_all("--interaction", o.interaction, r.interactions());
   q.smoothings = words_or_all("--smoothing", o.smoothing, r.smoothings());
-  const std::vector<int> dims = o.dim == "all" ? r.dims() : parse_counts("--dim", o.dim, 0);
+  std::vector<int> dims = o.dim == "all" ? r.dims() : parse_counts("--dim", o.dim, 0);
+  if (o.dim == "all")
+    for (const case_entry& c : case_entries())
+      if (c.name == o.case_name) std::erase_if(dims, [&](int dim) { return dim < c.least_dim; });
   for (const int dim : dims) {
     q.dim = dim;
     fill_in_defaults(q, o);
@@ -142,7 +145,7 @@ void add_verify_command(CLI::App& app, action& chosen) {
   command->add_option("--precision", o->precision, "working precisions, or all that are built")->capture_default_str();
   command->add_option("--smoothing", o->smoothing, "smoothing kernels, or all that are built")->capture_default_str();
   command->add_option("--dim", o->dim, "dimensions, or all that are built")->capture_default_str();
-  command->add_option("--seed", o->request.seed, "of the perturbation")->capture_default_str();
+  command->add_option("--seed", o->request.seed, "of the perturbation and of random places")->capture_default_str();
   command->add_flag("--each", o->each, "a line per sum, not per formula");
   command->callback([&chosen, o] { chosen = [o] { return verify(*o); }; });
 }

@@ -36,7 +36,8 @@ void check_request(const run_request& r, const registry& all) {
   for (const auto& s : r.states) check_word("state", s, case_states);
   for (const auto& b : r.backends) all.find_backend(b);
   for (const auto& i : r.interactions) all.check_interaction(i);
-  for (const auto& k : r.smoothings) all.check_smoothing(k);
+  if (std::ranges::any_of(r.interactions, [&](const std::string& i) { return all.is_smoothed(i); }))
+    for (const auto& k : r.smoothings) all.check_smoothing(k);
   for (const auto& p : r.precisions) all.check_precision(p);
   all.check_dim(r.dim);
   for (const auto& o : r.orders) check_word("order", o, memory_orders);

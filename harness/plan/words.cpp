@@ -30,8 +30,9 @@ std::vector<std::string> parse_words(const std::string& option, const std::strin
   std::size_t begin = 0;
   while (true) {
     const std::size_t comma = text.find(',', begin);
-    words.push_back(text.substr(begin, comma == text.npos ? text.npos : comma - begin));
-    if (words.back().empty()) throw error(fmt::format("{} has an empty word in \"{}\"", option, text));
+    const std::string word = text.substr(begin, comma == text.npos ? text.npos : comma - begin);
+    if (word.empty()) throw error(fmt::format("{} has an empty word in \"{}\"", option, text));
+    if (std::ranges::find(words, word) == words.end()) words.push_back(word);
     if (comma == text.npos) return words;
     begin = comma + 1;
   }

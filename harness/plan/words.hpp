@@ -11,7 +11,7 @@ std::vector<int> parse_counts(const std::string& option, const std::string& text
 /// "0.02,0.03" -> {0.02, 0.03}; an error names the word that is no number.
 std::vector<double> parse_numbers(const std::string& option, const std::string& text);
 
-/// "a,b" -> {"a","b"}; empty words are an error.
+/// "a,b,a" -> {"a","b"}: each once, in the order of their first; empty words are an error.
 std::vector<std::string> parse_words(const std::string& option, const std::string& text);
 
 }  // namespace pairsum::harness

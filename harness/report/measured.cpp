@@ -204,8 +204,9 @@ std::string label(const point& p) {
 
 std::string label(const measurements& all, const measured_point& p) {
   if (all.series.size() < 2) return label(p.point);
-  return fmt::format("{} ({}, {}, dx {}, {}, study {})", label(p.point), p.point.case_name, p.point.state, p.point.dx,
-                     p.point.order, all.series[p.series].study);
+  const struct point& q = p.point;
+  return fmt::format("{} ({}, {}, dx {}, {}, {}, {}, {}, {}, study {})", label(q), q.case_name, q.state, q.dx, q.order,
+                     q.precision, q.interaction, q.smoothing, q.integrator, all.series[p.series].study);
 }
 
 std::string first_few(const std::vector<std::string>& texts) {

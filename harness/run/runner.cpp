@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <map>
 #include <memory>
 
 #include "harness/environment/environment.hpp"
@@ -32,8 +33,12 @@ class round_run {
  public:
   round_run(const registry& all, const run_request& r, const std::filesystem::path& out)
       : registry_(all), request_(r), round_(last_round(out) + 1), environment_(describe_environment(r.study)) {
-    for (const world_plan& w : expand(r, all))
-      plans_.push_back({w, std::make_unique<world>(registry_, request_, w.front())});
+    std::map<std::pair<double, std::string>, std::shared_ptr<const world_particles>> particles;
+    for (const world_plan& w : expand(r, all)) {
+      auto& shared = particles[{w.front().dx, w.front().state}];
+      if (!shared) shared = std::make_shared<world_particles>(request_, w.front());
+      plans_.push_back({w, std::make_unique<world>(registry_, request_, w.front(), shared)});
+    }
     writer_ = std::make_unique<row_writer>(out);  // last, so that bad input leaves no file behind
     writer_->write(environment_);
     std::size_t points = 0;

@@ -16,12 +16,20 @@ struct step_result {
   verifier::outcome checked;
 };
 
-/// The particles of one world, made once, and the measurement of any backend on them.
+/// The particles of a (dx, state), made once for all worlds that have them, and their orders of memory by name.
+struct world_particles {
+  initial_condition initial;
+  std::map<std::string, std::vector<std::uint32_t>> orders;
+  std::size_t dropped = 0;  ///< lay outside Omega and were left out (--outside drop)
+
+  world_particles(const run_request& r, const point& any);
+};
+
+/// The particles of one world and their reference, and the measurement of any backend on them.
 class world {
  public:
-  /// Makes and checks the particles. `dropped()` of them lay outside Omega and were left out (--outside drop).
-  /// `any` is one of the world's points.
-  world(const registry& all, const run_request& r, const point& any);
+  /// Checks the particles. `any` is one of the world's points.
+  world(const registry& all, const run_request& r, const point& any, std::shared_ptr<const world_particles> particles);
 
   /// Computes the reference; to be called before the first measure().
   void make_reference();
@@ -42,7 +50,7 @@ class world {
   /// step's verification is not part of its times.
   result measure(const point& p);
 
-  std::size_t dropped() const { return dropped_; }
+  std::size_t dropped() const { return particles_->dropped; }
 
  private:
   setup setup_for(const point& p) const;
@@ -50,10 +58,8 @@ class world {
 
   const registry& registry_;
   run_request request_;
-  initial_condition initial_;
   point any_;
-  std::map<std::string, std::vector<std::uint32_t>> orders_;
-  std::size_t dropped_ = 0;
+  std::shared_ptr<const world_particles> particles_;
   std::unique_ptr<verifier> verifier_;
   std::map<std::pair<std::string, int>, work_row> work_;
 };

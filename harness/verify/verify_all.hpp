@@ -25,9 +25,9 @@ struct verify_line {
 };
 
 /// Sums the case with every backend x M x threads (serial backends once) for every precision x interaction x smoothing
-/// kernel (interactions that take none: once), compares with the
-/// reference, compares the counted pairs with the reference's, and demands equal bits over thread counts where the
-/// backend claims them. Reports each line as it is made; returns whether all are fine.
+/// kernel (interactions that take none: once), compares with the reference, compares the counted pairs with the
+/// reference's, and demands equal bits over thread counts where the backend claims them. Reports each line as it is
+/// made; returns whether all are fine.
 bool verify_all(const registry& r, const initial_condition& c, const verify_plan& plan,
                 const std::function<void(const verify_line&)>& report);
 

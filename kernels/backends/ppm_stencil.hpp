@@ -2,8 +2,7 @@
 // The block pattern of Sbalzarini et al. (J. Comput. Phys. 215 (2006) 566): the pairs of cells are an explicit list,
 // applied with every cell as base in one serial sweep:
 //
-//   for each cell B:  sumF1(B);  for (j, k) in list:  sumF2(B+j, B+k)          3D: 13 pairs among the 8 cells B +
-//   {0,1}^3
+//   for each cell B:  sumF1(B);  for (j, k) in list:  sumF2(B+j, B+k)      3D: 13 pairs among the 8 cells B + {0,1}^3
 //
 // It is the talk's pattern without the passes: all neighbours of a pair are at or above B, so no cell looks back.
 // Blocks of neighbouring bases overlap. Race-free: one thread.

@@ -14,7 +14,7 @@ struct case_parameters {
   double dx = 0;               ///< particle spacing, m
   double H = 0;                ///< support radius, m; 0 means 2 dx
   std::string state = "rest";  ///< "rest" or "perturbed"
-  std::uint64_t seed = 1;      ///< of the perturbation
+  std::uint64_t seed = 1;      ///< of the perturbation and of random places
 };
 
 /// Particles with the world they live in. SI units.
@@ -34,10 +34,13 @@ inline constexpr double bytes_per_particle = 500;
 struct case_entry {
   std::string_view name, description;
   initial_condition (*make)(const case_parameters&);
+  int least_dim = 1;  ///< it exists from this dimension up to 3
 
   template <class Case>
   static case_entry of() {
-    return {Case::name, Case::description, &Case::make};
+    int least_dim = 1;
+    if constexpr (requires { Case::least_dim; }) least_dim = Case::least_dim;
+    return {Case::name, Case::description, &Case::make, least_dim};
   }
 };
 
@@ -52,8 +55,7 @@ initial_condition make_case(std::string_view name, const case_parameters& c);
 inline const std::vector<std::string_view> case_states{"rest", "perturbed"};
 
 /// Disturbs the fluid so that every term of a formula is alive: shift of -0.3 dx per axis (towards the walls), jitter
-/// of
-/// +-0.05 dx, velocity in +-0.1 c0 per component, density times 1 +- 0.01, all uniform and by particle id.
+/// of +-0.05 dx, velocity in +-0.1 c0 per component, density times 1 +- 0.01, all uniform and by particle id.
 void perturb(initial_condition& c, double dx, std::uint64_t seed);
 
 /// Orders of memory: "lattice" (as made), "shuffled", "morton" (along the Z-curve of cells of width H). order[k] is the

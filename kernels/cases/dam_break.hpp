@@ -17,6 +17,7 @@ struct dam_break {
   static constexpr std::string_view description =
       "water cube collapsing in an open tank (Willkomm 2009, Ferrari et al. 2009); 2D and 3D";
 
+  static constexpr int least_dim = 2;
   static constexpr double water = 0.6, tank_length = 3.25, tank_height = 1.8, tank_width = 0.6;
 
   static initial_condition make(const case_parameters& c) {

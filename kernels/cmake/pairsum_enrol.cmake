@@ -52,7 +52,7 @@ function(pairsum_enrol out_sources folder)
 
   # What is known: every backend's traits, and the words of what is not built with the option that brings it.
   pairsum_each(built "  r.enrol_backend(@::traits);" ${BUILT_BACKENDS})
-  pairsum_each(left_out "  r.enrol_backend(@::traits, \"not in this build; configure with -DPAIRSUM_BACKENDS=@ or all\");"
+  pairsum_each(left_out "  r.enrol_backend(@::traits, \"not in this build; configure with -DPAIRSUM_BACKENDS=all\");"
     ${MISSING_BACKENDS})
   string(APPEND built "${left_out}")
   foreach(choice word IN ZIP_LISTS PAIRSUM_CHOICES PAIRSUM_CHOICE_WORDS)
@@ -61,6 +61,12 @@ function(pairsum_enrol out_sources folder)
       string(APPEND built "${left_out}")
     endif()
   endforeach()
+  set(smoothed ${BUILT_INTERACTIONS})
+  list(REMOVE_ITEM smoothed ${PAIRSUM_ALL_PLAIN_INTERACTIONS})
+  if(NOT smoothed)  # nothing takes a kernel
+    pairsum_each(left_out "  r.enrol_missing({\"smoothing kernel\", \"@\", \"PAIRSUM_INTERACTIONS\"});" ${BUILT_SMOOTHINGS})
+    string(APPEND built "${left_out}")
+  endif()
   pairsum_source(known "${backend_includes}#include \"sum/registry.hpp\"\n" "${built}")
 
   foreach(dim IN LISTS BUILT_DIMS)

@@ -62,6 +62,18 @@ constexpr int count() {
 template <class S>
 inline constexpr int field_count = fields_detail::count<S>();
 
+/// The first slot of a field that S lists.
+template <class S, class F>
+int field_slot(F S::*wanted) {
+  int slot = 0, found = -1;
+  fields_detail::each_member<S>([&](auto p) {
+    if constexpr (std::is_same_v<decltype(p), F S::*>)
+      if (p == wanted) found = slot;
+    slot += fields_detail::member<decltype(p)>::type::width;
+  });
+  return found;
+}
+
 /// Calls f(scalar, slot) on every scalar of s, slots counting from 0 in the order of the fields.
 template <class S, class F>
 [[gnu::always_inline]] inline void each_scalar(S&& s, F&& f) {

@@ -8,7 +8,8 @@ namespace pairsum {
 /// A team with what it needs to live: threads for whoever has none to hand in. Keep it while its team works.
 class workers {
  public:
-  /// `threads` threads of that kind; serial backends index with OpenMP threads and sum on one.
+  /// `threads` threads of that kind, at least 1 (else pairsum::error); serial backends index with OpenMP threads and
+  /// sum on one.
   workers(runtime kind, int threads);
   ~workers();
 

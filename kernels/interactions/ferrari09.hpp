@@ -6,9 +6,9 @@ namespace pairsum {
 /// "Almost symmetric" weakly compressible SPH with a Rusanov flux on the density (Ferrari, Dumbser, Toro, Armanini,
 /// Computers & Fluids 38 (2009) 1203). With r = x_i - x_j, v_ij = v_i - v_j, F = W'(r)/r, c_ij = max(c_i, c_j):
 ///
-///   drho_i/dt += m_j [ F v_ij.r - c_ij F r (rho_j - rho_i)/rho_j ]     drho_j/dt += m_i [ F v_ij.r - c_ij F r (rho_i -
-///   rho_j)/rho_i ] a = (p_i/rho_i^2 + p_j/rho_j^2) F r_vec                            dv_i/dt -= m_j a,   dv_j/dt +=
-///   m_i a
+///   drho_i/dt += m_j [ F v_ij.r - c_ij F |r| (rho_j - rho_i)/rho_j ]
+///   drho_j/dt += m_i [ F v_ij.r - c_ij F |r| (rho_i - rho_j)/rho_i ]
+///   a = (p_i/rho_i^2 + p_j/rho_j^2) F r,      dv_i/dt -= m_j a,   dv_j/dt += m_i a
 ///
 /// Boundary by local point symmetry: boundary particle b mirrors fluid particle i into a ghost at 2 x_b - x_i with
 /// velocity 2 v_b - v_i and i's own density, pressure and mass. The ghost is 2 (x_i - x_b) away, so b acts for |x_i -

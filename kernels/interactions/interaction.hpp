@@ -45,8 +45,8 @@ concept has_boundary = requires {
 ///   name, dim, real        the word for it, the dimension, the working precision
 ///   I(physics)             takes the constants
 ///   particle<T>            what a fluid particle brings to a pair, derived once per summation by derive()
-///   rates<T>               what is summed; both are structs with fields(), or a single scalar or vec, see
-///   core/fields.hpp rate_name              names the rates if they are a single scalar or vec; a struct has `names`
+///   rates<T>               what is summed. Both are structs with fields(), or a single scalar or vec (core/fields.hpp)
+///   rate_name              the rates' name if they are a single scalar or vec; a struct has `names`
 ///   pair(r, r2, i, j)      both contributions of a fluid pair; r = x_i - x_j, r2 = r.r < H^2; a backend that wants one
 ///                          side takes .to_i and the compiler drops the rest
 ///

@@ -11,7 +11,8 @@ namespace pairsum {
 ///   Pi = (-alpha c mu + beta mu^2)/rho for v_ij.r < 0, else 0;    mu = h v_ij.r/(r^2 + 0.01 h^2)
 ///
 /// A boundary particle repels a fluid particle closer than r0 = H/4 with the acceleration D ((r0/r)^4 - (r0/r)^2)
-/// r/r^2, D = 100 m2/s2; there is none at r = 0, so a fluid particle exactly on a boundary particle is refused.
+/// r/r^2, D = 100 m2/s2; there is none at r = 0, so a fluid particle exactly on a boundary particle is refused. (Closer
+/// than about 1e-6 H it exceeds what float holds, and the rates are not finite.)
 template <int D, class R, template <int, class> class Smoothing>
 class monaghan94 {
  public:

@@ -6,9 +6,8 @@
 
 namespace pairsum {
 
-/// Applies a permutation to columns: element k becomes what was at `source[k]`, for the first
-/// source.size() elements. Keeps
-/// its scratch memory from call to call.
+/// Applies a permutation to columns: element k becomes what was at `source[k]`, for the first source.size() elements.
+/// Keeps its scratch memory from call to call.
 class reorderer {
  public:
   template <class T>

@@ -7,9 +7,8 @@
 namespace pairsum {
 
 /// The cubic B-spline M4 (Monaghan & Lattanzio, Astron. Astrophys. 149 (1985) 135) with smoothing length h = H/2. With
-/// s = r/h in [0,2):
-///   W = sigma (1 - 3/2 s^2 + 3/4 s^3)  for s < 1,   sigma (2-s)^3/4  beyond;   sigma = 2/(3h), 10/(7 pi h^2), 1/(pi
-///   h^3)
+/// s = r/h in [0,2) and sigma = 2/(3h), 10/(7 pi h^2), 1/(pi h^3) in 1D, 2D, 3D:
+///   W = sigma (1 - 3/2 s^2 + 3/4 s^3)  for s < 1,     W = sigma (2-s)^3/4  beyond
 template <int D, class R>
 class cubic_spline {
   static_assert(D >= 1 && D <= 3);

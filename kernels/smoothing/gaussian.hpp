@@ -8,9 +8,8 @@
 namespace pairsum {
 
 /// A Gaussian of smoothing length h = H/3, cut off at H and normalised to integral 1 over its support. With q = r/H in
-/// [0,1):
-///   W = alpha exp(-9 q^2),   1/alpha = sqrt(pi)/3 erf(3) H,   pi/9 (1 - e^-9) H^2,   pi (sqrt(pi) erf(3)/27 - 2
-///   e^-9/9) H^3
+/// [0,1):  W = alpha exp(-9 q^2),  1/alpha = sqrt(pi)/3 erf(3) H in 1D, pi/9 (1 - e^-9) H^2 in 2D,
+/// pi (sqrt(pi)/27 erf(3) - 2/9 e^-9) H^3 in 3D
 template <int D, class R>
 class gaussian {
   static_assert(D >= 1 && D <= 3);

@@ -7,7 +7,7 @@ namespace pairsum {
 template <int D>
 void coloured_blocks<D>::build(const cells<D>& c, const team& t) {
   const std::size_t pieces = static_cast<std::size_t>(t.threads());
-  std::vector<std::array<std::size_t, colours>> next(pieces + 1);
+  std::vector<std::array<std::size_t, colours>> next(pieces);
   const auto in_pieces = [&](auto&& visit) {
     t.for_pieces(c.fluid_cells,
                  [&](std::size_t begin, std::size_t end, std::size_t piece) { visit(begin + 1, end + 1, piece); });

@@ -78,6 +78,11 @@ class interaction_state : public state<I::dim, typename I::real> {
   using base = state<D, R>;
 
  public:
+  void check(const particle_table& p) const override {
+    base::check(p);
+    if constexpr (boundary_is_singular<I>()) check_apart<R>(p, I::name);
+  }
+
   void load(const particle_table& p, const std::vector<std::uint32_t>& order) override {
     base::load(p, order);
     view_ = {};
@@ -117,10 +122,9 @@ class interaction_state : public state<I::dim, typename I::real> {
                     r.drho;
                     r.dv;
                   }) {
-      static_assert(field_count<rates_of<I>> == 1 + D, "drho, then dv");
       const auto u = columns_.rates();
-      found.drho = u.template column_as<R>(0);
-      for (int d = 0; d < D; ++d) found.dv[d] = u.template column_as<R>(1 + d);
+      found.drho = u.template column_as<R>(field_slot(&rates_of<I>::drho));
+      for (int d = 0; d < D; ++d) found.dv[d] = u.template column_as<R>(field_slot(&rates_of<I>::dv) + d);
     }
     return found;
   }
@@ -129,11 +133,6 @@ class interaction_state : public state<I::dim, typename I::real> {
   // Not inline: each backend would compile its own copies.
   explicit interaction_state(const setup& s);
   ~interaction_state() override;
-
-  void check(const particle_table& p) const override {
-    base::check(p);
-    if constexpr (boundary_is_singular<I>()) check_apart<R>(p, I::name);
-  }
 
   /// Derives what the formula needs of the particles as indexed last.
   [[gnu::noinline]] const problem<I>& derive(const team& t) {

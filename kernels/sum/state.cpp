@@ -6,7 +6,7 @@
 namespace pairsum {
 
 template <int D, class R>
-state<D, R>::state(const setup& s) : setup_(s), index_(make_box<D, R>(s), make_grid<D, R>(s)) {}
+state<D, R>::state(const setup& s) : setup_((check_world(s), s)), index_(make_box<D, R>(s), make_grid<D, R>(s)) {}
 
 template <int D, class R>
 state<D, R>::~state() = default;

@@ -19,6 +19,7 @@ class state : public summation {
   };
   virtual dynamics rates_of_state() = 0;
 
+  void check(const particle_table& p) const override;
   void load(const particle_table& p, const std::vector<std::uint32_t>& order) override;
   void index(const team& t) override;
   particle_table snapshot() const override;
@@ -31,9 +32,6 @@ class state : public summation {
  protected:
   explicit state(const setup& s);
   ~state() override;
-
-  /// Throws pairsum::error for particles that cannot be summed.
-  virtual void check(const particle_table& p) const;
 
   setup setup_;
   particle_set<D, R> particles_;

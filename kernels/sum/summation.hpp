@@ -17,6 +17,9 @@ class summation {
 
   virtual const backend_traits& traits() const = 0;
 
+  /// Throws pairsum::error for particles that cannot be summed, see load().
+  virtual void check(const particle_table& p) const = 0;
+
   /// Takes the particles (ids are row numbers) in the given order of memory (empty: id order). Positions must be finite
   /// and in Omega, masses and densities positive; else an error that says which particle, or how many, and changes
   /// nothing.

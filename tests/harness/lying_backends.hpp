@@ -57,6 +57,26 @@ struct bits_change_with_threads {
   };
 };
 
+/// Right, but in the third sum it makes: with two stages a step, the first stage of the second step.
+struct wrong_in_third_sum {
+  static constexpr backend_traits traits = [] {
+    backend_traits t = broken_symmetric<fault::none>::traits;
+    t.name = "wrong_in_third_sum";
+    return t;
+  }();
+
+  template <class I>
+  struct workspace : broken_symmetric<fault::none>::workspace<I> {
+    int sums = 0;
+    template <class Probe>
+    void sum(const problem<I>& p, const team& t, Probe& probe) {
+      broken_symmetric<fault::none>::workspace<I>::sum(p, t, probe);
+      if (++sums == 3)
+        for (std::size_t i = 0; i < p.fluid_count; ++i) p.u.add(i, p.u.load(i));
+    }
+  };
+};
+
 inline registry lying_registry() {
   using formula = ferrari09<3, double, wendland_c2>;
   registry r;
@@ -66,6 +86,7 @@ inline registry lying_registry() {
     enrol_summation<Backend, formula>(r);
   };
   add.template operator()<counts_one_too_many>();
+  add.template operator()<wrong_in_third_sum>();
   add.template operator()<bits_change_with_threads<true>>();
   add.template operator()<bits_change_with_threads<false>>();
   return r;

@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
-#include "broken_registry.hpp"
 #include "harness/rows/reader.hpp"
 #include "harness/run/runner.hpp"
+#include "lying_backends.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -101,6 +101,25 @@ TEST_F(run_test, a_wrong_backend_gets_an_error_row_and_never_a_time) {
   }
   EXPECT_EQ(failed, 2u);  // one per M
   EXPECT_EQ(good, 2u * 2 * 3);
+}
+
+TEST_F(run_test, every_stage_of_a_step_is_verified) {
+  const registry lying = lying_registry();
+  run_request r = small();
+  r.backends = {"wrong_in_third_sum"};
+  r.M = {3};
+  for (const auto& [integrator, step] : {std::pair{"rk2", 2}, {"predictor_corrector", 2}, {"rk4", 1}, {"euler", 3}}) {
+    const auto path = folder_ / (std::string(integrator) + ".jsonl");
+    r.integrators = {integrator};
+    EXPECT_EQ(run(r, path, lying), 1) << integrator;
+    const rows_file rows = read_rows(path);
+    ASSERT_EQ(rows.samples.size(), 1u);
+    ASSERT_TRUE(rows.samples[0].error);
+    EXPECT_EQ(rows.samples[0].error->find("step " + std::to_string(step) + ":"), 0u) << *rows.samples[0].error;
+  }
+  r.integrators = {"rk2"};
+  r.steps = 1;  // two sums, both right
+  EXPECT_EQ(run(r, folder_ / "right.jsonl", lying), 0);
 }
 
 TEST_F(run_test, orders_of_memory_give_the_same_pairs) {

@@ -6,6 +6,10 @@
 namespace pairsum::harness {
 namespace {
 
+TEST(words, repeated_words_count_once) {
+  EXPECT_EQ(parse_words("--backend", "b,a,b,a"), (std::vector<std::string>{"b", "a"}));
+}
+
 TEST(words, lists_ranges_and_all) {
   EXPECT_EQ(parse_counts("--M", "6,7", 0), (std::vector<int>{6, 7}));
   EXPECT_EQ(parse_counts("--M", "5..8,7,2", 0), (std::vector<int>{5, 6, 7, 8, 2}));

@@ -69,7 +69,7 @@ std::string disagreement(const rate_table& rates, const expectation& e, bool com
     for (std::size_t k = 0; k < e.ids.size(); ++k) {
       const double rate = rates.columns[c].at(e.ids[k]);
       seen[e.ids[k]] = true;
-      if (std::abs(rate - e.value[c][k]) <= e.bound[c][k]) continue;
+      if (std::isfinite(e.bound[c][k]) && std::abs(rate - e.value[c][k]) <= e.bound[c][k]) continue;
       text << rates.names[c] << " of particle " << e.ids[k] << " is " << rate << ", not " << e.value[c][k] << " +- "
            << e.bound[c][k];
       return text.str();

@@ -53,5 +53,10 @@ TEST(workers, give_every_index_to_one_call) {
   }
 }
 
+TEST(workers, need_a_thread) {
+  for (const int bad : {0, -1})
+    EXPECT_TRUE(test_kit::says(test_kit::error_of([&] { workers(runtime::omp, bad); }), {"at least 1 thread"}));
+}
+
 }  // namespace
 }  // namespace pairsum

@@ -87,6 +87,9 @@ TEST(disagreement, rejects) {
   bad = good;
   bad.columns[1][1500] = 1e-300;  // a boundary particle
   EXPECT_TRUE(says(disagreement(bad, e), {"dv_x of particle 1500 is", "not 0"}));
+  expectation anything = e;
+  anything.bound[1][7] = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(says(disagreement(good, anything), {"dv_x of particle 7 is"})) << "an infinite bound bounds nothing";
   bad = good;
   bad.names[1] = "dv";
   EXPECT_EQ(disagreement(bad, e), "other columns");

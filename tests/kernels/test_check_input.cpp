@@ -98,7 +98,9 @@ TEST_F(check_input_test, the_world_must_be_usable) {
   EXPECT_NE(error_of([&] { (void)registry::instance().make_summation(s.world); }), "");
   s.world.omega_high[1] = nan;
   expect_refusal({"Omega", "finite"});
-  s.world.omega_high[1] = 1.8;
+  s.world.omega_high = {3.3, 1.8};
+  EXPECT_TRUE(says(error_of([&] { (void)registry::instance().make_summation(s.world); }), {"corners of 3 components"}));
+  s.world.omega_high = {3.3, 1.8, 0.61};
   s.world.dim = 2;
   expect_refusal({"3D", "2D"});
 }

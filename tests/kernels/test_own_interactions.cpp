@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "integrators/integrator.hpp"
 #include "scene.hpp"
 #include "smoothing/wendland_c2.hpp"
 #include "sum/agreement.hpp"
@@ -60,6 +61,32 @@ struct lennard_jones {
   }
 };
 
+/// Rates in an order of their own, and one more: every pair adds 1 to drho, 2 to energy, nothing to dv.
+struct odd_order {
+  static constexpr std::string_view name = "odd_order";
+  static constexpr int dim = 2;
+  using real = double;
+  template <class T>
+  using particle = nothing;
+  template <class T>
+  struct rates {
+    vec<dim, T> dv;
+    T energy, drho;
+    static constexpr auto fields() { return std::make_tuple(&rates::dv, &rates::energy, &rates::drho); }
+    static constexpr std::array<std::string_view, 3> names{"dv", "energy", "drho"};
+  };
+  explicit odd_order(const physics&) {}
+  template <class T>
+  nothing derive(const particle_state<dim, T>&) const {
+    return {};
+  }
+  template <class T>
+  contributions<rates<T>> pair(const vec<dim, T>&, const T&, nothing, nothing) const {
+    const rates<T> one{vec<dim, T>(T(0), T(0)), T(2), T(1)};
+    return {one, one};
+  }
+};
+
 template <class I>
 std::map<std::string, double> shares_of_bound(double dx) {
   const initial_condition c = make_case("lattice", {.dim = I::dim, .dx = dx, .H = 2.5 * dx, .state = "perturbed"});
@@ -96,6 +123,28 @@ TEST(own_interactions, a_single_vector_is_summed_by_every_backend) {
   EXPECT_EQ(shares.size(), backend_names().size());
   for (const auto& [backend, share] : shares) EXPECT_LE(share, 1) << backend;
   EXPECT_EQ(rate_names<lennard_jones<0>>(), (std::vector<std::string>{"force_x", "force_y"}));
+}
+
+TEST(own_interactions, time_steps_find_drho_and_dv_by_name) {
+  const initial_condition c = make_case("lattice", {.dim = 2, .dx = 0.1});
+  registry own;
+  enrol_everywhere<odd_order>(own, backend_list<symmetric>{});
+  setup s = setup_of(c);
+  s.interaction = odd_order::name;
+  s.M = 4;
+  const auto sum = own.make_summation(s);
+  sum->load(c.particles, {});
+  find_integrator("euler").step(
+      *sum, 0.5, 0, [&] { sum->evaluate(team()); }, team());
+  const particle_table now = sum->snapshot();
+  const rate_table rates = sum->rates();
+  EXPECT_EQ(rates.names, (std::vector<std::string>{"dv_x", "dv_y", "energy", "drho"}));
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    EXPECT_GT(rates.columns[3][i], 0);
+    EXPECT_EQ(now.rho[i], c.particles.rho[i] + 0.5 * rates.columns[3][i]);
+    EXPECT_EQ(now.v[0][i], 0);
+    EXPECT_EQ(now.v[1][i], 0);
+  }
 }
 
 /// The reference takes one side of a pair from either particle: sides that do not match are found out.

@@ -1,6 +1,7 @@
 """Greps the includes: each folder may include what docs/design.md allows, and nothing else."""
 
 import fnmatch
+import json
 import os
 import pathlib
 import re
@@ -112,3 +113,15 @@ def test_the_checker_rejects():
 def test_every_header_says_pragma_once():
     missing = [str(p) for p in sources() if p.suffix == ".hpp" and "#pragma once" not in p.read_text()]
     assert missing == []
+
+
+def test_presets_leave_no_option_to_an_old_cache():
+    presets = {p["name"]: p for p in json.loads((SOURCE / "CMakePresets.json").read_text())["configurePresets"]}
+    options = set(re.findall(r"^option\((PAIRSUM_\w+)", (SOURCE / "CMakeLists.txt").read_text(), re.M))
+    choices = re.search(r"set\(PAIRSUM_CHOICES (.*?)\)", (SOURCE / "kernels/cmake/pairsum_choose.cmake").read_text())[1].split()
+    options |= {f"PAIRSUM_{choice}" for choice in choices}
+    assert len(options) > 8 and options <= presets["base"]["cacheVariables"].keys()
+    for name, preset in presets.items():
+        while preset["name"] != "base":
+            assert preset.get("inherits"), name
+            preset = presets[preset["inherits"]]

@@ -9,7 +9,7 @@ cd "$folder"
 for control in overflow:AddressSanitizer undefined:"runtime error"; do
   name=${control%%:*} says=${control#*:}
   # shellcheck disable=SC2086  # the flags are words
-  c++ -std=c++20 $flags "$sources/$name.cpp" -o "$name"
+  "${CXX:-c++}" -std=c++20 $flags "$sources/$name.cpp" -o "$name"
   if ./"$name" >"$name.log" 2>&1; then
     echo "$name was not stopped"
     exit 1
