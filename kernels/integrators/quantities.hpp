@@ -1,7 +1,6 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "core/error.hpp"
 #include "integrators/with_state.hpp"
 
 namespace pairsum {
@@ -14,12 +13,8 @@ struct quantity {
   Rate k;     ///< its rate at the state that was evaluated last: v, dv + gravity, or drho
   columns kept0, kept1;
 
-  /// The copies that travel with the particles from stage to stage, see keep().
-  columns& kept(int copy) {
-    columns& wanted = copy == 0 ? kept0 : kept1;
-    if (wanted.size() != y.size()) throw error("an integrator must call keep() for the copies it uses");
-    return wanted;
-  }
+  /// The copies that travel with the particles from stage to stage: 0 and 1 of those that keep() made room for.
+  columns& kept(int copy) { return copy == 0 ? kept0 : kept1; }
   /// A time in the working precision.
   static R real(double a) { return static_cast<R>(a); }
 };
@@ -27,8 +22,7 @@ struct quantity {
 /// Lets every particle carry `copies` (0 to 2) values of each quantity through the sorting of the stages to come.
 inline void keep(summation& s, int copies) {
   with_state(s, [&]<int D, class R>(state<D, R>& st) {
-    const bool moves = static_cast<bool>(st.rates_of_state());
-    st.particles().carry(moves ? static_cast<std::size_t>(copies) * (2 * D + 1) : 0);
+    st.particles().carry(static_cast<std::size_t>(copies) * (2 * D + 1));
   });
 }
 

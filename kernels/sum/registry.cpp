@@ -31,7 +31,8 @@ const registry& registry::instance() {
 }
 
 void registry::enrol_backend(const backend_traits& t, std::string unavailable) {
-  backends_.push_back({t, std::move(unavailable)});
+  const bool known = std::ranges::any_of(backends_, [&](const backend_entry& b) { return b.traits.name == t.name; });
+  if (!known) backends_.push_back({t, std::move(unavailable)});  // a second formula brings the same backends
 }
 void registry::enrol_missing(missing_word m) { missing_.push_back(std::move(m)); }
 void registry::enrol(std::string_view backend, const combination_words& c, summation_maker make) {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/workers.hpp"
+#include "scene.hpp"
 #include "sum/agreement.hpp"
 
 namespace pairsum {

@@ -125,6 +125,14 @@ TEST(own_interactions, a_single_vector_is_summed_by_every_backend) {
   EXPECT_EQ(rate_names<lennard_jones<0>>(), (std::vector<std::string>{"force_x", "force_y"}));
 }
 
+TEST(own_interactions, two_in_one_registry_list_each_backend_once) {
+  registry own;
+  enrol_everywhere<density>(own, all_backends{});
+  enrol_everywhere<odd_order>(own, backend_list<naive, symmetric>{});
+  EXPECT_EQ(own.backends().size(), backend_names().size());
+  EXPECT_EQ(own.interactions(), (std::vector<std::string>{"density", "odd_order"}));
+}
+
 TEST(own_interactions, time_steps_find_drho_and_dv_by_name) {
   const initial_condition c = make_case("lattice", {.dim = 2, .dx = 0.1});
   registry own;

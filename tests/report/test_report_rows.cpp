@@ -107,7 +107,7 @@ TEST_F(report, different_machines_and_builds_are_refused_unless_allowed) {
     const json mixed = make(true);
     EXPECT_EQ(mixed["series"].size(), 2u);
     EXPECT_EQ(mixed["points"].size(), 10u);
-    EXPECT_TRUE(has_caveat(mixed, "naive M=6 threads=1 (dam_break, rest, dx 0.00594, lattice, study"));
+    EXPECT_TRUE(has_caveat(mixed, "naive M=6 threads=1 (dam_break, rest, dx 0.00594, lattice, double, ferrari09,"));
     EXPECT_TRUE(has_caveat(mixed, "rows of different machines or builds in one report"));
   }
 }
