@@ -127,7 +127,8 @@ def test_verify_can_say_each_sum(pairsum):
 
 def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
     out = tmp_path / "rows.jsonl"
-    factors = {"precision": listed["precisions"], "interaction": listed["interactions"], "smoothing": listed["smoothings"][:2],
+    kernels = listed["smoothings"][:2]
+    factors = {"precision": listed["precisions"], "interaction": listed["interactions"], "smoothing": kernels,
                "order": ["lattice", "shuffled", "morton"], "integrator": ["euler", "rk4"]}
     options = [text for name, words in factors.items() for text in (f"--{name}", ",".join(words))]
     done = pairsum("run", "--case", "random_clustered", "--dx", "0.2", "--M", "4", "--threads", "1", "--backend", "naive,symmetric",
@@ -135,7 +136,7 @@ def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
     assert done.returncode == 0, done.stderr
     points = [row["point"] for row in map(json.loads, out.read_text().splitlines()) if row["kind"] == "sample"]
     plain = len(listed["plain_interactions"])
-    formulas = (len(listed["interactions"]) - plain) * 2 + plain
+    formulas = (len(listed["interactions"]) - plain) * len(kernels) + plain
     assert len(points) == len({json.dumps(p, sort_keys=True) for p in points}) == 2 * 3 * 2 * formulas * len(listed["precisions"])
     assert {p["smoothing"] for p in points if p["interaction"] == "count"} == {"none"}
     assert schema_errors(out) == []
@@ -149,7 +150,7 @@ def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
 def test_cases_run_in_their_dimensions(pairsum, listed, tmp_path, case, dim):
     if dim not in listed["dims"]:
         pytest.skip(f"{dim}D is not built")
-    done = pairsum("run", "--case", case, "--dim", str(dim), "--dx", "0.05", "--state", "perturbed", "--M", "5", "--threads", "1",
+    done = pairsum("run", "--case", case, "--dim", str(dim), "--dx", "0.1" if dim == 3 else "0.05", "--state", "perturbed", "--M", "5", "--threads", "1",
                    "--integrator", "predictor_corrector", "--steps", "3", "--repetitions", "1", "--out", tmp_path / "rows.jsonl")
     assert done.returncode == 0, done.stderr
     assert "FAILED" not in done.stdout
