@@ -108,6 +108,7 @@ def test_what_was_left_out_is_refused_with_the_option_that_brings_it(pairsum, wo
 @pytest.mark.parametrize("option, valid", [("DIMS=4", "1;2;3"), ("DIMS=", "1;2;3"), ("PRECISIONS=half", "double;float"),
                                            ("SMOOTHINGS=gauss", "wendland_c2"), ("BACKENDS=gpu", "naive")])
 def test_an_option_with_a_wrong_word_is_refused(tmp_path, option, valid):
-    done = configure(copy(tmp_path), "-DPAIRSUM_HARNESS=OFF", f"-DPAIRSUM_{option}")
+    everything = [f"-DPAIRSUM_{choice}=all" for choice in ["DIMS", "PRECISIONS", "BACKENDS", "INTERACTIONS", "SMOOTHINGS"]]
+    done = configure(copy(tmp_path), "-DPAIRSUM_HARNESS=OFF", *everything, f"-DPAIRSUM_{option}")
     assert done.returncode != 0
     assert option.split("=")[0] in done.stdout and valid in done.stdout
