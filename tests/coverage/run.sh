@@ -14,4 +14,4 @@ cmake --build "$build" --parallel 2 --target test_kernels test_harness test_rows
 ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel 2 \
   --exclude-regex '^(layers|headers|tidy|plots|scripts|kernels_full_size|accuracy.*)$'
 gcovr --root "$source" --object-directory "$build" --filter "$source/kernels/" --filter "$source/harness/" \
-  --exclude-throw-branches --txt "$build/coverage.txt" --print-summary
+  --exclude-throw-branches --gcov-ignore-parse-errors --txt "$build/coverage.txt" --print-summary
