@@ -2,6 +2,7 @@
 // Reference loop: that of naive, the cells shared out among OpenMP threads.
 //
 // Race-free: a cell's visit writes the rates of that cell's particles alone, and each cell is visited once.
+#include "core/omp_loop.hpp"
 #include "sum/backend.hpp"
 #include "sum/gather_cell.hpp"
 
@@ -15,7 +16,8 @@ struct naive_omp {
       .threads = runtime::omp,
       .symmetric = false,
       .deterministic = true,
-      .accumulates = false};
+      .accumulates = false,
+      .loop = {schedule::dynamic, 64}};
 
   template <class I>
   struct workspace {
@@ -25,8 +27,10 @@ struct naive_omp {
     template <class Probe>
     void sum(const problem<I>& p, const team& t, Probe& probe) {
       const std::size_t n = p.cells().fluid_cells;
-#pragma omp parallel for num_threads(t.threads()) schedule(dynamic, 64)
-      for (std::size_t c = 1; c <= n; ++c) gather_cell(p, c, probe);
+      const granularity g = t.granularity_or(traits.loop);
+      probe.pass_begins(0);
+#pragma omp parallel num_threads(t.threads())
+      omp_pass(0, n, g, probe, [&](std::size_t c) { gather_cell(p, c + 1, probe); });
     }
   };
 };

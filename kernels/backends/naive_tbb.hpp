@@ -2,10 +2,7 @@
 // Reference loop: that of naive, the cells shared out among the threads of a oneTBB arena.
 //
 // Race-free: a cell's visit writes the rates of that cell's particles alone, and each cell is visited once.
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include "core/tbb_arena.hpp"
+#include "core/tbb_loop.hpp"
 #include "sum/backend.hpp"
 #include "sum/gather_cell.hpp"
 
@@ -19,7 +16,8 @@ struct naive_tbb {
       .threads = runtime::tbb,
       .symmetric = false,
       .deterministic = true,
-      .accumulates = false};
+      .accumulates = false,
+      .loop = {schedule::automatic, 64}};
 
   template <class I>
   struct workspace {
@@ -28,11 +26,9 @@ struct naive_tbb {
 
     template <class Probe>
     void sum(const problem<I>& p, const team& t, Probe& probe) {
-      using range = ::tbb::blocked_range<std::size_t>;
+      const granularity g = t.granularity_or(traits.loop);
       t.arena().arena.execute([&] {
-        ::tbb::parallel_for(range(1, p.cells().fluid_cells + 1, 64), [&](const range& r) {
-          for (std::size_t c = r.begin(); c < r.end(); ++c) gather_cell(p, c, probe);
-        });
+        tbb_pass(0, 1, p.cells().fluid_cells + 1, g, probe, [&](std::size_t c) { gather_cell(p, c, probe); });
       });
     }
   };

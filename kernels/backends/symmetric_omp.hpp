@@ -10,6 +10,7 @@
 // even side (2^M, the torus included) two blocks of a pass share no cell; passes are separated by barriers. For the
 // same reason the order in which a particle's rate is added to does not depend on the threads: the result is
 // bit-identical.
+#include "core/omp_loop.hpp"
 #include "sum/backend.hpp"
 #include "sum/block.hpp"
 
@@ -23,7 +24,8 @@ struct symmetric_omp {
       .threads = runtime::omp,
       .symmetric = true,
       .deterministic = true,
-      .accumulates = true};
+      .accumulates = true,
+      .loop = {schedule::dynamic, 32}};
 
   template <class I>
   struct workspace : coloured_workspace<I> {
@@ -31,12 +33,12 @@ struct symmetric_omp {
 
     template <class Probe>
     void sum(const problem<I>& p, const team& t, Probe& probe) {
+      const granularity g = t.granularity_or(traits.loop);
+      probe.pass_begins(0);
 #pragma omp parallel num_threads(t.threads())
       for (unsigned o = 0; o < coloured_blocks<I::dim>::colours; ++o) {
         const auto* const b = blocks[o].data();
-        const std::size_t n = blocks[o].size();
-#pragma omp for schedule(dynamic, 32)
-        for (std::size_t k = 0; k < n; ++k) sum_block(p, b[k], probe);
+        omp_pass(o, blocks[o].size(), g, probe, [&](std::size_t k) { sum_block(p, b[k], probe); });
       }
     }
   };

@@ -7,10 +7,7 @@
 //       for j, k in {0,1}^d, k < j, j*k = 0:  sumF2(B+j, B+k)
 //
 // Race-free, and bit-identical for every number of threads, as symmetric_omp is: blocks of a pass share no cell.
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include "core/tbb_arena.hpp"
+#include "core/tbb_loop.hpp"
 #include "sum/backend.hpp"
 #include "sum/block.hpp"
 
@@ -24,7 +21,8 @@ struct symmetric_tbb {
       .threads = runtime::tbb,
       .symmetric = true,
       .deterministic = true,
-      .accumulates = true};
+      .accumulates = true,
+      .loop = {schedule::automatic, 32}};
 
   template <class I>
   struct workspace : coloured_workspace<I> {
@@ -32,13 +30,11 @@ struct symmetric_tbb {
 
     template <class Probe>
     void sum(const problem<I>& p, const team& t, Probe& probe) {
-      using range = ::tbb::blocked_range<std::size_t>;
+      const granularity g = t.granularity_or(traits.loop);
       t.arena().arena.execute([&] {
         for (unsigned o = 0; o < coloured_blocks<I::dim>::colours; ++o) {
           const auto* const b = blocks[o].data();
-          ::tbb::parallel_for(range(0, blocks[o].size(), 32), [&](const range& r) {
-            for (std::size_t k = r.begin(); k < r.end(); ++k) sum_block(p, b[k], probe);
-          });
+          tbb_pass(o, 0, blocks[o].size(), g, probe, [&](std::size_t k) { sum_block(p, b[k], probe); });
         }
       });
     }

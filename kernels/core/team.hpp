@@ -15,6 +15,17 @@ constexpr std::string_view name_of(runtime r) {
   return r == runtime::serial ? "serial" : r == runtime::omp ? "omp" : "tbb";
 }
 
+/// How a parallel loop is shared out: OpenMP's schedules (dynamic, fixed, guided) or oneTBB's partitioners (automatic,
+/// simple, fixed, affinity).
+enum class schedule { none, dynamic, fixed, guided, automatic, simple, affinity };
+
+/// A schedule and its chunk (OpenMP) or grain (oneTBB), in iterations.
+struct granularity {
+  schedule how = schedule::none;
+  std::size_t chunk = 0;
+  bool operator==(const granularity&) const = default;
+};
+
 /// A borrowed callable `void(std::size_t)`; the callee must outlive the call.
 class index_function {
  public:
@@ -45,6 +56,17 @@ class team {
   int threads() const { return threads_; }
   tbb_arena& arena() const { return *arena_; }
 
+  /// The same team, but backends share out their loops as `g` says.
+  team with(const granularity& g) const {
+    team t = *this;
+    t.granularity_ = g;
+    return t;
+  }
+  /// What the caller wants, or the backend's own if the caller did not say.
+  granularity granularity_or(const granularity& own) const {
+    return granularity_.how == schedule::none ? own : granularity_;
+  }
+
   /// Calls f(0) .. f(n-1), each once, on the team's threads; returns when all are done.
   void for_each(std::size_t n, index_function f) const;
 
@@ -62,6 +84,7 @@ class team {
   runtime kind_ = runtime::serial;
   int threads_ = 1;
   tbb_arena* arena_ = nullptr;
+  granularity granularity_;
 };
 
 }  // namespace pairsum

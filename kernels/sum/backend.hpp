@@ -17,6 +17,7 @@ struct backend_traits {
   bool symmetric;                ///< each pair computed once, both particles updated
   bool deterministic;            ///< bit-identical for every number of threads
   bool accumulates;              ///< adds to the rates, which the caller has zeroed; else it writes each rate once
+  granularity loop{};            ///< how it shares out its loops unless the team says; none without such loops
 };
 
 /// A summation algorithm: `traits`, and a `workspace<I>` for interaction I that is kept from step to step, with

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 
+#include "core/pass_observer.hpp"
+
 namespace pairsum {
 
 /// Work of one summation, counted in an instantiation of its own, never in the timed one.
@@ -14,8 +16,13 @@ struct work_counts {
   std::uint64_t pairs_interacting() const { return pairs_fluid_fluid + pairs_fluid_boundary; }
 };
 
-/// The timed instantiation counts nothing.
-struct no_probe {
+/// Distance tests on a grid without folded cells: by the gather (each fluid pair twice) and by symmetric sums.
+struct unfolded_tests {
+  std::uint64_t gather = 0, symmetric = 0;
+};
+
+/// The timed instantiation counts nothing; it marks passes for whoever observes them.
+struct no_probe : pass_marks {
   static constexpr bool counting = false;
   void sumF1(std::uint64_t) {}
   void sumF2(std::uint64_t) {}
@@ -24,8 +31,8 @@ struct no_probe {
   void boundary_pairs(std::uint64_t) {}
 };
 
-/// Counts; for one thread.
-struct work_probe {
+/// Counts; for one thread, unobserved.
+struct work_probe : pass_marks {
   static constexpr bool counting = true;
   work_counts counts;
   void sumF1(std::uint64_t n) { counts.sumF1 += n; }

@@ -1,5 +1,8 @@
 #include "sum/state.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "sum/check.hpp"
 #include "sum/grids.hpp"
 
@@ -29,6 +32,36 @@ template <int D, class R>
 void state<D, R>::index(const team& t) {
   index_.build(particles_, t);
   lost_ += index_.lost();
+}
+
+template <int D, class R>
+std::optional<unfolded_tests> state<D, R>::count_unfolded_tests() const {
+  // Cells are at least H wide; one more keeps the first and the last apart on the torus, another rounding errors.
+  double widest = 0;
+  for (int d = 0; d < D; ++d)
+    widest = std::max(widest, (setup_.omega_high[d] - setup_.omega_low[d]) / setup_.constants.H);
+  setup unfolded = setup_;
+  for (unfolded.M = 2; std::ldexp(1.0, unfolded.M) < widest + 3;) ++unfolded.M;
+  if (D * unfolded.M > 30) return std::nullopt;
+  particle_set<D, R> particles = particles_;
+  indexer<D, R> index(make_box<D, R>(unfolded), make_grid<D, R>(unfolded));
+  index.build(particles, team());
+  const cells<D>& c = index.view();
+  unfolded_tests tests;
+  for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) {
+    const std::uint64_t own = c.range[cell].fluid();
+    std::uint64_t around = 0, boundary = 0;
+    for (unsigned n = 0; n < cells<D>::stencil; ++n) {
+      const cell_range& other = c.range[c.neighbour(cell, n)];
+      around += other.fluid();
+      boundary += other.boundary_end - other.boundary_begin;
+    }
+    tests.gather += own * (around - 1) + own * boundary;
+    tests.symmetric += own * boundary;
+  }
+  // Each fluid pair is tested twice by the gather, once by a symmetric sum.
+  tests.symmetric += (tests.gather - tests.symmetric) / 2;
+  return tests;
 }
 
 template <int D, class R>

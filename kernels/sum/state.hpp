@@ -22,6 +22,8 @@ class state : public summation {
   void check(const particle_table& p) const override;
   void load(const particle_table& p, const std::vector<std::uint32_t>& order) override;
   void index(const team& t) override;
+  void observe(pass_observer* observer) override { observer_ = observer; }
+  std::optional<unfolded_tests> count_unfolded_tests() const override;
   particle_table snapshot() const override;
   std::size_t lost() const override { return lost_; }
 
@@ -37,6 +39,7 @@ class state : public summation {
   particle_set<D, R> particles_;
   indexer<D, R> index_;
   std::size_t rows_ = 0, lost_ = 0;
+  pass_observer* observer_ = nullptr;
 };
 
 #define PAIRSUM_STATES(EXTERN)            \

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "particles/particle_table.hpp"
@@ -31,6 +32,9 @@ class summation {
   virtual void sum(const team& t) = 0;      ///< the summation
   virtual void reduce(const team& t) = 0;   ///< joins private copies, for backends that have them
 
+  /// From now on sum() marks its passes for this observer, if the backend has passes; nullptr: for nobody.
+  virtual void observe(pass_observer* observer) = 0;
+
   /// All phases once.
   void evaluate(const team& t) {
     index(t);
@@ -42,6 +46,10 @@ class summation {
 
   /// The work of a summation of the state as indexed last; an untimed instantiation of its own, on one thread.
   virtual work_counts count_work() = 0;
+
+  /// The distance tests a grid that folds nothing would need for the state as loaded or indexed last; empty if no grid
+  /// is large enough for it.
+  virtual std::optional<unfolded_tests> count_unfolded_tests() const = 0;
 
   virtual rate_table rates() const = 0;
   /// 64-bit hash of the rates' bytes in id order: equal for bit-identical rates, whatever the order of memory.

@@ -40,15 +40,15 @@ class summation_of final : public interaction_state<I> {
   const backend_traits& traits() const override { return B::traits; }
 
   void prepare(const team& t) override {
-    no_probe none;
-    workspace_.prepare(base::derive(t), t, none);
+    no_probe unobserved;
+    workspace_.prepare(base::derive(t), t, unobserved);
   }
   void zero(const team& t) override {
     if constexpr (B::traits.accumulates) this->columns_.zero_rates(t);
   }
   void sum(const team& t) override {
-    no_probe none;
-    workspace_.sum(view_, t, none);
+    no_probe marks{this->observer_};
+    workspace_.sum(view_, t, marks);
   }
   void reduce(const team& t) override {
     if constexpr (requires { workspace_.reduce(view_, t); }) workspace_.reduce(view_, t);

@@ -57,6 +57,11 @@ TEST(full_size, every_backend_finds_the_known_numbers_of_pairs) {
       EXPECT_EQ(n.pairs_interacting(), 13592338u);
       EXPECT_EQ(n.pairs_tested, sum->traits().symmetric ? e.symmetric : e.naive);
       EXPECT_EQ(n.cells, std::uint64_t{1} << 3 * e.M);
+      if (e.M != 9) continue;
+      const auto unfolded = sum->count_unfolded_tests();
+      ASSERT_TRUE(unfolded);
+      EXPECT_EQ(unfolded->symmetric, e.symmetric);
+      EXPECT_EQ(unfolded->gather, e.naive);
     }
   }
 }
