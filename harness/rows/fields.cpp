@@ -89,13 +89,20 @@ std::optional<double> fields::seconds_or_null(const char* key) {
   return value;
 }
 
-std::optional<std::vector<double>> fields::seconds_list_or_null(const char* key) {
+std::optional<std::vector<std::vector<double>>> fields::seconds_table_or_null(const char* key) {
   const auto& value = at(key);
   if (value.is_null()) return std::nullopt;
   const auto seconds = [](const nlohmann::json& v) { return v.is_number() && v.get<double>() >= 0; };
-  if (!value.is_array() || !std::all_of(value.begin(), value.end(), seconds))
-    reject(key, "an array of numbers >= 0 or null");
-  return value.get<std::vector<double>>();
+  const auto list = [&](const nlohmann::json& v) { return v.is_array() && std::all_of(v.begin(), v.end(), seconds); };
+  if (!value.is_array() || !std::all_of(value.begin(), value.end(), list))
+    reject(key, "an array of arrays of numbers >= 0, or null");
+  return value.get<std::vector<std::vector<double>>>();
+}
+
+double fields::positive(const char* key) {
+  const double value = number(key);
+  if (!(value > 0)) reject(key, "a number > 0");
+  return value;
 }
 
 int fields::integer(const char* key, int smallest) {

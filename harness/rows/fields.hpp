@@ -25,7 +25,10 @@ class fields {
   std::optional<double> number_or_null(const char* key);
   /// Seconds: a number >= 0 or null.
   std::optional<double> seconds_or_null(const char* key);
-  std::optional<std::vector<double>> seconds_list_or_null(const char* key);
+  /// A list of lists of seconds, or null.
+  std::optional<std::vector<std::vector<double>>> seconds_table_or_null(const char* key);
+  /// A number > 0.
+  double positive(const char* key);
   int integer(const char* key, int smallest);
   std::uint64_t count(const char* key);
   std::optional<std::uint64_t> count_or_null(const char* key);

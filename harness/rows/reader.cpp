@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -88,40 +89,90 @@ class line_parser {
 
   /// Whether a line that does not parse can be the beginning of a row, by the keys that come first.
   static bool cut_row(const std::string& line) {
-    for (const std::string begin : {"{\"barrier_wait_s\":", "{\"binding\":", "{\"kind\":", "{\"schema\":"})
+    for (const std::string begin : {"{\"bandwidth_bytes_per_s\":", "{\"barrier_wait_s\":", "{\"binding\":",
+                                    "{\"elapsed_s\":", "{\"kind\":", "{\"schema\":"})
       if (line.compare(0, begin.size(), begin, 0, line.size()) == 0) return true;
     return false;
   }
 
+  void known(const std::string& environment) const {
+    if (known_.count(environment) == 0)
+      throw error("key \"environment\" should name an environment row before it, is \"" + environment + "\"");
+  }
+
   void add(row&& r) {
-    if (auto* e = std::get_if<environment_row>(&r)) {
-      known_.insert(e->environment);
-      rows_.environments.push_back(std::move(*e));
-    } else if (auto* v = std::get_if<void_row>(&r)) {
-      rows_.voids.push_back(std::move(*v));
-    } else {
-      sample& s = std::get<sample>(r);
-      if (known_.count(s.environment) == 0)
-        throw error("key \"environment\" should name an environment row before it, is \"" + s.environment + "\"");
-      rows_.samples.push_back(std::move(s));
-    }
+    std::visit([this](auto& v) { keep(std::move(v)); }, r);
+  }
+  void keep(environment_row&& e) {
+    known_.insert(e.environment);
+    rows_.environments.push_back(std::move(e));
+  }
+  void keep(void_row&& v) { rows_.voids.push_back(std::move(v)); }
+  void keep(end_row&& e) { rows_.ends.push_back(std::move(e)); }
+  void keep(peak_row&& p) {
+    known(p.environment);
+    rows_.peaks.push_back(std::move(p));
+  }
+  void keep(sample&& s) {
+    known(s.environment);
+    if (closed_.count({s.study, s.round}) != 0)
+      throw error("key \"round\" names round " + std::to_string(s.round) + ", which a round row before it has closed");
+    ++samples_[{s.study, s.round}];
+    rows_.samples.push_back(std::move(s));
+  }
+  void keep(round_row&& r) {
+    known(r.environment);
+    const std::uint64_t found = samples_[{r.study, r.round}];
+    if (!closed_.emplace(r.study, r.round).second)
+      throw error("key \"round\" names round " + std::to_string(r.round) + ", which is closed already");
+    if (found != r.rows)
+      throw error("key \"rows\" should be the number of samples of the round, " + std::to_string(found) + ", is " +
+                  std::to_string(r.rows));
+    rows_.rounds.push_back(std::move(r));
   }
 
   const std::string& text_;
   rows_file& rows_;
   std::size_t number_ = 0;
   std::set<std::string> known_;
+  std::map<std::pair<std::string, int>, std::uint64_t> samples_;
+  std::set<std::pair<std::string, int>> closed_;
 };
+
+using round_set = std::set<std::pair<std::string, int>>;
+
+round_set voided_in(const rows_file& rows) {
+  round_set voided;
+  for (const void_row& v : rows.voids) voided.emplace(v.study, v.round);
+  return voided;
+}
 
 }  // namespace
 
+std::vector<round_row> rows_file::finished_rounds() const {
+  const round_set voided = voided_in(*this);
+  std::vector<round_row> finished;
+  for (const round_row& r : rounds)
+    if (voided.count({r.study, r.round}) == 0) finished.push_back(r);
+  return finished;
+}
+
 std::vector<sample> rows_file::valid_samples() const {
-  std::set<std::pair<std::string, int>> voided;
-  for (const void_row& v : voids) voided.emplace(v.study, v.round);
+  round_set finished;
+  for (const round_row& r : finished_rounds()) finished.emplace(r.study, r.round);
   std::vector<sample> valid;
   for (const sample& s : samples)
-    if (voided.count({s.study, s.round}) == 0) valid.push_back(s);
+    if (finished.count({s.study, s.round}) != 0) valid.push_back(s);
   return valid;
+}
+
+std::vector<std::pair<std::string, int>> rows_file::unfinished_rounds() const {
+  round_set settled = voided_in(*this);
+  for (const round_row& r : rounds) settled.emplace(r.study, r.round);
+  std::vector<std::pair<std::string, int>> open;
+  for (const sample& s : samples)
+    if (settled.emplace(s.study, s.round).second) open.emplace_back(s.study, s.round);
+  return open;
 }
 
 rows_file read_rows(const std::filesystem::path& path, cut_line last_line) {

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/rows/row.hpp"
@@ -14,11 +16,20 @@ struct rows_file {
   std::vector<sample> samples;
   std::vector<environment_row> environments;
   std::vector<void_row> voids;
+  std::vector<peak_row> peaks;
+  std::vector<round_row> rounds;
+  std::vector<end_row> ends;
   bool last_line_cut = false;  ///< a cut last line was dropped
 
-  std::size_t size() const { return samples.size() + environments.size() + voids.size(); }
-  /// The samples without those of rounds that a void row of the same study names.
+  std::size_t size() const {
+    return samples.size() + environments.size() + voids.size() + peaks.size() + rounds.size() + ends.size();
+  }
+  /// The samples of finished rounds: those that a round row closes and no void row names.
   std::vector<sample> valid_samples() const;
+  /// The round rows that no void row names.
+  std::vector<round_row> finished_rounds() const;
+  /// Rounds that have samples but no round row and no void row, as (study, round).
+  std::vector<std::pair<std::string, int>> unfinished_rounds() const;
 };
 
 /// What to do with a last line that was cut while it was written.

@@ -5,29 +5,26 @@
 
 #include "core/error.hpp"
 #include "harness/rows/fields.hpp"
+#include "harness/rows/json_parts.hpp"
 
 namespace pairsum::harness {
 namespace {
 
 using nlohmann::json;
 
-json finite(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-
-json finite(const std::optional<double>& value) { return value ? finite(*value) : json(nullptr); }
-
-template <class T>
-json or_null(const std::optional<T>& value) {
-  return value ? json(*value) : json(nullptr);
-}
-
-json finite_list(const std::optional<std::vector<double>>& values) {
-  if (!values) return nullptr;
-  json list = json::array();
-  for (double value : *values) {
-    if (!std::isfinite(value)) return nullptr;
-    list.push_back(value);
+/// To a tenth of a microsecond, which is what a clock around a pass can tell.
+json pass_times(const std::optional<thread_times>& times) {
+  if (!times) return nullptr;
+  json passes = json::array();
+  for (const std::vector<double>& pass : *times) {
+    json threads = json::array();
+    for (const double s : pass) {
+      if (!std::isfinite(s)) return nullptr;
+      threads.push_back(std::round(s * 1e7) / 1e7);
+    }
+    passes.push_back(threads);
   }
-  return list;
+  return passes;
 }
 
 point read_point(fields from) {
@@ -49,6 +46,7 @@ point read_point(fields from) {
   p.grid = from.text("grid");
   p.M = from.integer("M", 0);
   p.threads = from.integer("threads", 1);
+  p.granularity = from.text("granularity");
   p.isa = from.text("isa");
   from.finish();
   return p;
@@ -78,8 +76,18 @@ constexpr work_member work_members[] = {{"cells", &work_row::cells},
 work_row read_work(fields from) {
   work_row w;
   for (const work_member& member : work_members) w.*member.value = from.count(member.name);
+  w.pairs_tested_unfolded = from.count_or_null("pairs_tested_unfolded");
   from.finish();
   return w;
+}
+
+counters_row read_counters(fields from) {
+  counters_row c;
+  c.cycles = from.count_or_null("cycles");
+  c.instructions = from.count_or_null("instructions");
+  c.cache_misses = from.count_or_null("cache_misses");
+  from.finish();
+  return c;
 }
 
 verify_row read_verify(fields from) {
@@ -97,25 +105,28 @@ std::optional<T> read_or_null(fields& from, const char* key, Read read) {
   return read(from.nested(key));
 }
 
-void read_head(fields& from, const char* kind) {
-  from.literal("schema", row_schema);
-  from.literal("kind", kind);
-}
-
-json head(const char* kind) { return {{"schema", row_schema}, {"kind", kind}}; }
-
 }  // namespace
 
 void to_json(json& j, const point& p) {
-  j = {{"case", p.case_name},      {"state", p.state},
-       {"dx", finite(p.dx)},       {"H", finite(p.H)},
-       {"n_fluid", p.n_fluid},     {"n_boundary", p.n_boundary},
-       {"order", p.order},         {"dim", p.dim},
-       {"precision", p.precision}, {"interaction", p.interaction},
-       {"smoothing", p.smoothing}, {"integrator", p.integrator},
-       {"dt", finite(p.dt)},       {"backend", p.backend},
-       {"grid", p.grid},           {"M", p.M},
-       {"threads", p.threads},     {"isa", p.isa}};
+  j = {{"case", p.case_name},
+       {"state", p.state},
+       {"dx", finite(p.dx)},
+       {"H", finite(p.H)},
+       {"n_fluid", p.n_fluid},
+       {"n_boundary", p.n_boundary},
+       {"order", p.order},
+       {"dim", p.dim},
+       {"precision", p.precision},
+       {"interaction", p.interaction},
+       {"smoothing", p.smoothing},
+       {"integrator", p.integrator},
+       {"dt", finite(p.dt)},
+       {"backend", p.backend},
+       {"grid", p.grid},
+       {"M", p.M},
+       {"threads", p.threads},
+       {"granularity", p.granularity},
+       {"isa", p.isa}};
 }
 
 void to_json(json& j, const phases& p) {
@@ -126,6 +137,13 @@ void to_json(json& j, const phases& p) {
 void to_json(json& j, const work_row& w) {
   j = json::object();
   for (const work_member& member : work_members) j[member.name] = w.*member.value;
+  j["pairs_tested_unfolded"] = or_null(w.pairs_tested_unfolded);
+}
+
+void to_json(json& j, const counters_row& c) {
+  j = {{"cycles", or_null(c.cycles)},
+       {"instructions", or_null(c.instructions)},
+       {"cache_misses", or_null(c.cache_misses)}};
 }
 
 void to_json(json& j, const verify_row& v) {
@@ -135,6 +153,7 @@ void to_json(json& j, const verify_row& v) {
 void to_json(json& j, const sample& s) {
   j = head("sample");
   j["study"] = s.study;
+  j["part"] = s.part;
   j["round"] = s.round;
   j["slot"] = s.slot;
   j["repetition"] = s.repetition;
@@ -144,39 +163,13 @@ void to_json(json& j, const sample& s) {
   j["environment"] = s.environment;
   j["point"] = s.point;
   j["phases"] = or_null(s.phases);
-  j["threads_busy_s"] = finite_list(s.threads_busy_s);
-  j["barrier_wait_s"] = finite_list(s.barrier_wait_s);
+  j["threads_busy_s"] = pass_times(s.threads_busy_s);
+  j["barrier_wait_s"] = pass_times(s.barrier_wait_s);
+  j["counters"] = or_null(s.counters);
   j["work"] = or_null(s.work);
   j["peak_rss_bytes"] = or_null(s.peak_rss_bytes);
   j["verify"] = s.verify;
   if (s.error) j["error"] = *s.error;
-}
-
-void to_json(json& j, const environment_row& e) {
-  j = head("environment");
-  j["study"] = e.study;
-  j["utc"] = e.utc;
-  j["environment"] = e.environment;
-  j["host"] = e.host;
-  j["cpu"] = e.cpu;
-  j["caches"] = e.caches;
-  j["cores"] = e.cores;
-  j["governor"] = or_null(e.governor);
-  j["os_kernel"] = e.os_kernel;
-  j["compiler"] = e.compiler;
-  j["flags"] = e.flags;
-  j["libraries"] = e.libraries;
-  j["git"] = e.git;
-  j["dirty"] = e.dirty;
-  j["binding"] = e.binding;
-}
-
-void to_json(json& j, const void_row& v) {
-  j = head("void");
-  j["study"] = v.study;
-  j["utc"] = v.utc;
-  j["round"] = v.round;
-  j["reason"] = v.reason;
 }
 
 void from_json(const json& j, point& p) { p = read_point(fields(j)); }
@@ -188,6 +181,7 @@ void from_json(const json& j, sample& s) {
   fields from(j);
   read_head(from, "sample");
   s.study = from.text("study");
+  s.part = from.text("part");
   s.round = from.integer("round", 1);
   s.slot = from.integer("slot", 1);
   s.repetition = from.integer("repetition", 1);
@@ -201,46 +195,12 @@ void from_json(const json& j, sample& s) {
   s.phases = read_or_null<phases>(from, "phases", read_phases);
   if (s.error && s.phases) from.reject("phases", "null in a row with \"error\"");
   if (!s.error && !s.phases) from.reject("phases", "an object in a row without \"error\"");
-  s.threads_busy_s = from.seconds_list_or_null("threads_busy_s");
-  s.barrier_wait_s = from.seconds_list_or_null("barrier_wait_s");
+  s.threads_busy_s = from.seconds_table_or_null("threads_busy_s");
+  s.barrier_wait_s = from.seconds_table_or_null("barrier_wait_s");
+  s.counters = read_or_null<counters_row>(from, "counters", read_counters);
   s.work = read_or_null<work_row>(from, "work", read_work);
   s.peak_rss_bytes = from.count_or_null("peak_rss_bytes");
   s.verify = read_verify(from.nested("verify"));
-  from.finish();
-}
-
-void from_json(const json& j, environment_row& e) {
-  fields from(j);
-  read_head(from, "environment");
-  e.study = from.text("study");
-  e.utc = from.utc("utc");
-  e.environment = from.hex("environment");
-  e.host = from.text("host");
-  e.cpu = from.text("cpu");
-  e.caches.clear();
-  fields caches = from.nested("caches");
-  for (const auto& item : from.at("caches").items()) e.caches[item.key()] = caches.count(item.key().c_str());
-  e.cores = from.integer("cores", 1);
-  e.governor = from.text_or_null("governor");
-  e.os_kernel = from.text("os_kernel");
-  e.compiler = from.text("compiler");
-  e.flags = from.text("flags");
-  e.libraries.clear();
-  fields libraries = from.nested("libraries");
-  for (const auto& item : from.at("libraries").items()) e.libraries[item.key()] = libraries.text(item.key().c_str());
-  e.git = from.text("git");
-  e.dirty = from.boolean("dirty");
-  e.binding = from.text("binding");
-  from.finish();
-}
-
-void from_json(const json& j, void_row& v) {
-  fields from(j);
-  read_head(from, "void");
-  v.study = from.text("study");
-  v.utc = from.utc("utc");
-  v.round = from.integer("round", 1);
-  v.reason = from.text("reason");
   from.finish();
 }
 
@@ -257,7 +217,11 @@ row parse_row(const json& j) {
   if (kind == "sample") return j.get<sample>();
   if (kind == "environment") return j.get<environment_row>();
   if (kind == "void") return j.get<void_row>();
-  throw error("key \"kind\" should be \"sample\", \"environment\" or \"void\", is \"" + kind + "\"");
+  if (kind == "peak") return j.get<peak_row>();
+  if (kind == "round") return j.get<round_row>();
+  if (kind == "end") return j.get<end_row>();
+  throw error("key \"kind\" should be \"sample\", \"environment\", \"peak\", \"round\", \"end\" or \"void\", is \"" +
+              kind + "\"");
 }
 
 }  // namespace pairsum::harness

@@ -13,7 +13,7 @@
 /// section 3.
 namespace pairsum::harness {
 
-inline constexpr const char* row_schema = "pairsum.row/1";
+inline constexpr const char* row_schema = "pairsum.row/2";
 
 /// What was measured. Two rows belong to the same point exactly if these fields are equal.
 struct point {
@@ -34,6 +34,7 @@ struct point {
   std::string grid;
   int M = 0;
   int threads = 1;
+  std::string granularity;  ///< how its loops are shared out, "dynamic:32"; "none" for serial backends
   std::string isa;
   bool operator==(const point&) const = default;
 };
@@ -62,8 +63,18 @@ inline constexpr std::array<phase_member, 7> phase_members{{{"index_s", &phases:
 struct work_row {
   std::uint64_t cells = 0, cells_nonempty = 0, sumF1 = 0, sumF2 = 0, pairs_tested = 0, pairs_interacting = 0,
                 pairs_fluid_fluid = 0, pairs_fluid_boundary = 0;
+  std::optional<std::uint64_t> pairs_tested_unfolded;  ///< distance tests without folded cells
   bool operator==(const work_row&) const = default;
 };
+
+/// Hardware counts of the summation phase, over all threads; each empty where the machine does not count it.
+struct counters_row {
+  std::optional<std::uint64_t> cycles, instructions, cache_misses;
+  bool operator==(const counters_row&) const = default;
+};
+
+/// Seconds by [pass][thread].
+using thread_times = std::vector<std::vector<double>>;
 
 /// Outcome of the verification. Without a fingerprint (16 hex digits) the row is unverified.
 struct verify_row {
@@ -74,15 +85,16 @@ struct verify_row {
 
 /// One timed step of a repetition. `phases` is empty exactly if `error` is set.
 struct sample {
-  std::string study;
+  std::string study, part;
   int round = 1, slot = 1, repetition = 1, step = 1;  ///< each counts from 1
   std::uint64_t seed = 0;
   std::string utc;          ///< like 2026-11-22T15:30:00.123Z
   std::string environment;  ///< 16 hex digits, id of an environment row written before
   struct point point;
   std::optional<struct phases> phases;
-  std::optional<std::vector<double>> threads_busy_s;  ///< per pass of the summation, if probed
-  std::optional<std::vector<double>> barrier_wait_s;  ///< per pass of the summation, if probed
+  std::optional<thread_times> threads_busy_s;  ///< work in the passes of the summation, if the backend has passes
+  std::optional<thread_times> barrier_wait_s;  ///< the rest of the pass: waiting for the others
+  std::optional<counters_row> counters;
   std::optional<work_row> work;
   std::optional<std::uint64_t> peak_rss_bytes;
   verify_row verify;
@@ -100,8 +112,38 @@ struct environment_row {
   std::map<std::string, std::string> libraries;
   std::string git;
   bool dirty = false;
-  std::string binding;
+  std::string binding;   ///< which processing unit each thread is pinned to, or "none"
+  std::string counters;  ///< what the hardware counts, or "none: why"
   bool operator==(const environment_row&) const = default;
+};
+
+/// What the machine does at best with so many threads, measured by the program: the model's bounds.
+struct peak_row {
+  std::string study, utc, environment;
+  int threads = 1;
+  std::string precision;
+  double bandwidth_bytes_per_s = 0, flops_per_s = 0;
+  bool operator==(const peak_row&) const = default;
+};
+
+/// Closes a round: all its rows are in the file. A round without this row is unfinished.
+struct round_row {
+  std::string study, utc, environment;
+  int round = 1;
+  std::string part;
+  int replicate = 1;  ///< the part's own count of rounds
+  std::string plan;   ///< 16 hex digits: the plan's hash
+  std::uint64_t seed = 0;
+  std::uint64_t rows = 0;  ///< samples of the round
+  double elapsed_s = 0;
+  std::optional<double> others_share;  ///< of the machine's CPU time, used by other processes meanwhile
+  bool operator==(const round_row&) const = default;
+};
+
+/// Says that a plan was carried out to its end.
+struct end_row {
+  std::string study, utc, plan, reason;
+  bool operator==(const end_row&) const = default;
 };
 
 /// Says that the rows of a round of a study do not count.
@@ -112,7 +154,7 @@ struct void_row {
   bool operator==(const void_row&) const = default;
 };
 
-using row = std::variant<sample, environment_row, void_row>;
+using row = std::variant<sample, environment_row, void_row, peak_row, round_row, end_row>;
 
 /// To JSON with exactly the keys of the schema; numbers that are not finite become null.
 void to_json(nlohmann::json& json, const point& value);
@@ -122,6 +164,10 @@ void to_json(nlohmann::json& json, const verify_row& value);
 void to_json(nlohmann::json& json, const sample& value);
 void to_json(nlohmann::json& json, const environment_row& value);
 void to_json(nlohmann::json& json, const void_row& value);
+void to_json(nlohmann::json& json, const peak_row& value);
+void to_json(nlohmann::json& json, const round_row& value);
+void to_json(nlohmann::json& json, const end_row& value);
+void to_json(nlohmann::json& json, const counters_row& value);
 
 /// From JSON, strictly: a missing, unknown or ill-typed key throws pairsum::error naming it.
 void from_json(const nlohmann::json& json, point& value);
@@ -131,6 +177,9 @@ void from_json(const nlohmann::json& json, verify_row& value);
 void from_json(const nlohmann::json& json, sample& value);
 void from_json(const nlohmann::json& json, environment_row& value);
 void from_json(const nlohmann::json& json, void_row& value);
+void from_json(const nlohmann::json& json, peak_row& value);
+void from_json(const nlohmann::json& json, round_row& value);
+void from_json(const nlohmann::json& json, end_row& value);
 
 /// The row as one line of JSON, without the newline.
 std::string format_row(const row& value);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -60,9 +62,16 @@ void row_writer::write(const row& value) {
   } catch (const error& e) {
     cannot_write(path_, std::string("the row is wrong: ") + e.what());
   }
-  if (const auto* s = std::get_if<sample>(&value))
-    if (environments_.count(s->environment) == 0)
-      cannot_write(path_, "no environment row before the sample is \"" + s->environment + "\"");
+  const std::string* const named = std::visit(
+      [](const auto& v) -> const std::string* {
+        if constexpr (requires { v.environment; })
+          return &v.environment;
+        else
+          return nullptr;
+      },
+      value);
+  if (named != nullptr && !std::holds_alternative<environment_row>(value) && environments_.count(*named) == 0)
+    cannot_write(path_, "no environment row before the row is \"" + *named + "\"");
 
   const std::string line = text + "\n";
   struct stat before {};
@@ -81,12 +90,26 @@ void row_writer::write(const row& value) {
   if (const auto* e = std::get_if<environment_row>(&value)) environments_.insert(e->environment);
 }
 
+std::size_t drop_cut_line(const std::filesystem::path& path) {
+  if (!has_rows(path) || !read_rows(path, cut_line::drop).last_line_cut) return 0;
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  // The cut line may end in a newline of its own, as part of a cut text.
+  const std::size_t before = text.size() < 2 ? text.npos : text.rfind('\n', text.size() - 2);
+  const std::size_t keep = before == text.npos ? 0 : before + 1;
+  std::error_code code;
+  std::filesystem::resize_file(path, keep, code);
+  if (code) cannot_write(path, code.message());
+  return text.size() - keep;
+}
+
 int last_round(const std::filesystem::path& path) {
   if (!has_rows(path)) return 0;
   const rows_file rows = read_rows(path);
   int last = 0;
   for (const sample& s : rows.samples) last = std::max(last, s.round);
   for (const void_row& v : rows.voids) last = std::max(last, v.round);
+  for (const round_row& r : rows.rounds) last = std::max(last, r.round);
   return last;
 }
 

@@ -33,6 +33,10 @@ class row_writer {
   std::set<std::string> environments_;
 };
 
+/// Takes a last line away that was cut while it was written, so that rows can be appended. Returns the number of bytes
+/// taken away; 0 if there is no file or nothing to mend. Throws like read_rows for any other fault.
+std::size_t drop_cut_line(const std::filesystem::path& path);
+
 /// The last round that the file names (its voided rounds too); 0 if there is no file or an empty
 /// one. Throws like read_rows.
 int last_round(const std::filesystem::path& path);

@@ -21,13 +21,15 @@ inline environment_row environment() {
   e.libraries = {{"fmt", "9.1.0"}};
   e.git = "abc1234";
   e.dirty = true;
-  e.binding = "none";
+  e.binding = "cores_first 0,1";
+  e.counters = "none: no such file";
   return e;
 }
 
 inline sample measured() {
   sample s;
   s.study = "talk";
+  s.part = "parallel_rest";
   s.round = 2;
   s.slot = 3;
   s.repetition = 4;
@@ -52,11 +54,13 @@ inline sample measured() {
   s.point.grid = "hashed_grid";
   s.point.M = 6;
   s.point.threads = 2;
+  s.point.granularity = "dynamic:32";
   s.point.isa = "native";
   s.phases = phases{0.1, 0.2, 0.3, 0.4, 0.0, 0.6, 1.6};
-  s.threads_busy_s = std::vector<double>{0.25, 0.5};
-  s.barrier_wait_s = std::vector<double>{0.125, 0.0};
-  s.work = work_row{262144, 11, 12, 13, 14, 15, 16, 17};
+  s.threads_busy_s = thread_times{{0.25, 0.5}, {0.125, 0.0}};
+  s.barrier_wait_s = thread_times{{0.125, 0.0}, {0.0, 0.5}};
+  s.work = work_row{262144, 11, 12, 13, 14, 15, 16, 17, 10};
+  s.counters = counters_row{1000, 2000, std::nullopt};
   s.peak_rss_bytes = 123456789;
   s.verify = verify_row{1.1e-15, 1e-14, "fedcba9876543210"};
   return s;
@@ -68,11 +72,37 @@ inline sample failed() {
   s.phases.reset();
   s.threads_busy_s.reset();
   s.barrier_wait_s.reset();
+  s.counters.reset();
   s.work.reset();
   s.peak_rss_bytes.reset();
   s.verify = verify_row{0.5, 1e-14, std::nullopt};
   s.error = "particle 7: relative error 0.5 above its bound 1e-14";
   return s;
+}
+
+inline peak_row peak() {
+  return peak_row{"talk", "2026-11-22T15:30:00.5Z", "0123456789abcdef", 2, "double", 1.5e10, 9.5e10};
+}
+
+/// Closes round 2 of the samples above.
+inline round_row closing(std::uint64_t rows = 2) {
+  round_row r;
+  r.study = "talk";
+  r.utc = "2026-11-22T15:30:02Z";
+  r.environment = "0123456789abcdef";
+  r.round = 2;
+  r.part = "parallel_rest";
+  r.replicate = 3;
+  r.plan = "00112233445566ff";
+  r.seed = 7;
+  r.rows = rows;
+  r.elapsed_s = 12.5;
+  r.others_share = 0.25;
+  return r;
+}
+
+inline end_row ended() {
+  return end_row{"talk", "2026-11-22T15:30:03Z", "00112233445566ff", "every part has its rounds"};
 }
 
 inline void_row voided() { return void_row{"talk", "2026-11-22T15:30:02.5Z", 2, "the round was not finished"}; }

@@ -15,8 +15,11 @@ int main(int argc, char** argv) {
     if (command == "write") {
       row_writer writer(argv[2]);
       writer.write(example::environment());
+      writer.write(example::peak());
       writer.write(example::measured());
       writer.write(example::failed());
+      writer.write(example::closing());
+      writer.write(example::ended());
       writer.write(example::voided());
       return 0;
     }

@@ -55,26 +55,63 @@ TEST_F(rows_files, last_round_counts_voided_rounds) {
   EXPECT_EQ(last_round(path), 5);
 }
 
-TEST_F(rows_files, voided_rounds_are_no_valid_samples) {
+TEST_F(rows_files, only_samples_of_finished_rounds_are_valid) {
   const auto path = file("rows.jsonl");
   row_writer writer(path);
   writer.write(example::environment());
   sample s = example::measured();
+  round_row closing = example::closing(1);
   for (int round = 1; round <= 3; ++round) {
-    s.round = round;
+    s.round = closing.round = round;
     writer.write(s);
+    writer.write(closing);
   }
-  s.round = 2;
-  s.study = "another";
+  s.study = closing.study = "another";
+  s.round = closing.round = 2;
+  writer.write(s);
+  writer.write(closing);
+  s.round = 4;  // never closed
   writer.write(s);
   writer.write(example::voided());  // study talk, round 2
   const rows_file rows = read_rows(path);
-  EXPECT_EQ(rows.samples.size(), 4u);
+  EXPECT_EQ(rows.samples.size(), 5u);
+  EXPECT_EQ(rows.finished_rounds().size(), 3u);
   const std::vector<sample> valid = rows.valid_samples();
   ASSERT_EQ(valid.size(), 3u);
   EXPECT_EQ(valid[0].round, 1);
   EXPECT_EQ(valid[1].round, 3);
   EXPECT_EQ(valid[2].study, "another");
+  const std::vector<std::pair<std::string, int>> open{{"another", 4}};
+  EXPECT_EQ(rows.unfinished_rounds(), open);
+}
+
+TEST_F(rows_files, a_round_row_must_close_what_is_there) {
+  const std::string environment = format_row(example::environment()) + "\n",
+                    one = format_row(example::measured()) + "\n";
+  const auto close = [](std::uint64_t rows) { return format_row(example::closing(rows)) + "\n"; };
+  EXPECT_NO_THROW(read_rows(put("fine.jsonl", environment + one + one + close(2))));
+  EXPECT_CONTAINS(message_of([&] { read_rows(put("few.jsonl", environment + one + close(2))); }),
+                  ":3: key \"rows\" should be the number of samples of the round, 1, is 2");
+  EXPECT_CONTAINS(message_of([&] { read_rows(put("late.jsonl", environment + close(0) + one)); }),
+                  ":3: key \"round\" names round 2, which a round row before it has closed");
+  EXPECT_CONTAINS(message_of([&] { read_rows(put("twice.jsonl", environment + one + close(1) + close(1))); }),
+                  ":4: key \"round\" names round 2, which is closed already");
+}
+
+TEST_F(rows_files, a_cut_last_row_can_be_dropped) {
+  const std::string whole = get(write_example());
+  const std::size_t last = whole.rfind('\n', whole.size() - 2) + 1;
+  for (const std::string& cut :
+       {whole.substr(0, last + 1), whole.substr(0, whole.size() - 1), whole.substr(0, whole.size() - 5) + "\n"}) {
+    const auto path = put("cut.jsonl", cut);
+    EXPECT_EQ(drop_cut_line(path), cut.size() - last);
+    EXPECT_EQ(get(path), whole.substr(0, last));
+    EXPECT_EQ(drop_cut_line(path), 0u);
+    row_writer(path).write(example::voided());
+    EXPECT_EQ(get(path), whole);
+  }
+  EXPECT_EQ(drop_cut_line(file("none.jsonl")), 0u);
+  EXPECT_CONTAINS(message_of([&] { drop_cut_line(put("foreign", "text\n")); }), "is no rows file");
 }
 
 TEST_F(rows_files, a_cut_last_row_is_reported_and_the_rows_before_it_are_readable) {
@@ -166,7 +203,7 @@ TEST_F(rows_files, files_that_are_no_rows_are_refused_in_one_line) {
   EXPECT_CONTAINS(message_of([&] { read_rows(folder_); }), "is a folder");
   const auto other = put("other", "{\"schema\":\"pairsum.row/9\",\"kind\":\"void\"}\n");
   EXPECT_EQ(message_of([&] { read_rows(other); }),
-            other.string() + ":1: key \"schema\" should be \"pairsum.row/1\", is \"pairsum.row/9\"");
+            other.string() + ":1: key \"schema\" should be \"pairsum.row/2\", is \"pairsum.row/9\"");
 }
 
 TEST_F(rows_files, places_that_cannot_be_written_are_refused_in_one_line) {

@@ -24,6 +24,9 @@ TEST(row, every_kind_survives_a_round_trip) {
   EXPECT_EQ(round_trip(example::failed()), example::failed());
   EXPECT_EQ(round_trip(example::environment()), example::environment());
   EXPECT_EQ(round_trip(example::voided()), example::voided());
+  EXPECT_EQ(round_trip(example::peak()), example::peak());
+  EXPECT_EQ(round_trip(example::closing()), example::closing());
+  EXPECT_EQ(round_trip(example::ended()), example::ended());
   environment_row bare = example::environment();
   bare.governor.reset();
   bare.caches.clear();
@@ -51,7 +54,7 @@ TEST(row, what_is_not_finite_is_written_as_null) {
   s.phases->sum_s = std::nan("");
   s.phases->zero_s = std::numeric_limits<double>::infinity();
   s.verify.max_rel_err = -std::numeric_limits<double>::infinity();
-  s.threads_busy_s = std::vector<double>{1.0, std::nan("")};
+  s.threads_busy_s = thread_times{{1.0}, {std::nan("")}};
   const json j = json::parse(format_row(s));
   EXPECT_TRUE(j["phases"]["sum_s"].is_null());
   EXPECT_TRUE(j["phases"]["zero_s"].is_null());
@@ -84,7 +87,8 @@ TEST(row, every_missing_key_is_named) {
                 "key \"" + key + "." + inner_key + "\" is missing");
     }
   }
-  for (const row& value : {row(example::environment()), row(example::voided())}) {
+  for (const row& value : {row(example::environment()), row(example::voided()), row(example::peak()),
+                           row(example::closing()), row(example::ended())}) {
     const json other = json::parse(format_row(value));
     for (const auto& item : other.items()) {
       const std::string key = item.key();
@@ -95,7 +99,8 @@ TEST(row, every_missing_key_is_named) {
 
 TEST(row, every_key_of_another_type_is_named) {
   for (const row& value :
-       {row(example::measured()), row(example::environment()), row(example::voided()), row(example::failed())}) {
+       {row(example::measured()), row(example::environment()), row(example::voided()), row(example::failed()),
+        row(example::peak()), row(example::closing()), row(example::ended())}) {
     const json whole = json::parse(format_row(value));
     for (const auto& item : whole.items()) {
       const std::string key = item.key();
@@ -125,10 +130,11 @@ TEST(row, messages_say_what_is_right_and_what_is_there) {
             "key \"work.cells\" should be an integer >= 0, is the number -3");
   EXPECT_EQ(rejection(s, [](json& j) { j["point"] = json::array(); }),
             "key \"point\" should be an object, is an array");
-  EXPECT_EQ(rejection(s, [](json& j) { j["schema"] = "pairsum.row/2"; }),
-            "key \"schema\" should be \"pairsum.row/1\", is \"pairsum.row/2\"");
-  EXPECT_EQ(rejection(s, [](json& j) { j["kind"] = "samples"; }),
-            "key \"kind\" should be \"sample\", \"environment\" or \"void\", is \"samples\"");
+  EXPECT_EQ(rejection(s, [](json& j) { j["schema"] = "pairsum.row/1"; }),
+            "key \"schema\" should be \"pairsum.row/2\", is \"pairsum.row/1\"");
+  EXPECT_EQ(
+      rejection(s, [](json& j) { j["kind"] = "samples"; }),
+      "key \"kind\" should be \"sample\", \"environment\", \"peak\", \"round\", \"end\" or \"void\", is \"samples\"");
   EXPECT_EQ(rejection(s, [](json& j) { j["verify"]["fingerprint"] = "xyz"; }),
             "key \"verify.fingerprint\" should be 16 hex digits, is \"xyz\"");
   EXPECT_EQ(rejection(s, [](json& j) { j["utc"] = "22.11.2026"; }),
@@ -137,7 +143,7 @@ TEST(row, messages_say_what_is_right_and_what_is_there) {
                       [](json& j) {
                         j["threads_busy_s"] = {1.0, "a"};
                       }),
-            "key \"threads_busy_s\" should be an array of numbers >= 0 or null, is an array");
+            "key \"threads_busy_s\" should be an array of arrays of numbers >= 0, or null, is an array");
 }
 
 TEST(row, unknown_keys_are_named) {

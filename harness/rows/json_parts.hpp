@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "harness/rows/fields.hpp"
+#include "harness/rows/row.hpp"
+
+/// What the rows of every kind are written and read with.
+namespace pairsum::harness {
+
+/// null for what is not finite.
+inline nlohmann::json finite(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
+inline nlohmann::json finite(const std::optional<double>& value) {
+  return value ? finite(*value) : nlohmann::json(nullptr);
+}
+
+template <class T>
+nlohmann::json or_null(const std::optional<T>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+/// The keys that rows of every kind begin with.
+inline nlohmann::json head(const char* kind) { return {{"schema", row_schema}, {"kind", kind}}; }
+
+inline void read_head(fields& from, const char* kind) {
+  from.literal("schema", row_schema);
+  from.literal("kind", kind);
+}
+
+}  // namespace pairsum::harness
