@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "cases/case.hpp"
+#include "core/granularity.hpp"
 #include "core/names.hpp"
 #include "core/random.hpp"
 #include "harness/environment/environment.hpp"
@@ -54,13 +55,20 @@ void check_request(const run_request& r, const registry& all) {
   }
   check_at_least("steps", r.steps, 1);
   check_at_least("repetitions", r.repetitions, 1);
-  check_at_least("budget", r.budget_s, 0);
+  for (const auto& g : r.granularities)
+    if (g != default_granularity)
+      for (const auto& b : r.backends) parse_granularity(g, all.find_backend(b).traits.threads);
   if (r.study.empty() || r.study.find_first_of("/\\ \t\n") != std::string::npos || r.study.front() == '.')
     throw error(
         fmt::format("a study's name is a folder's name: no slash, no blank, no leading dot, is \"{}\"", r.study));
 }
 
 namespace {
+
+/// The granularity that a word means for a backend, as it stands in a row.
+std::string granularity_of(const std::string& word, const backend_traits& b) {
+  return name_of(word == default_granularity ? b.loop : parse_granularity(word, b.threads));
+}
 
 /// The points of one world, whose words `p` holds.
 world_plan points_of_world(point p, const run_request& r, const registry& all) {
@@ -69,14 +77,17 @@ world_plan points_of_world(point p, const run_request& r, const registry& all) {
     for (const std::string& order : r.orders)
       for (const int M : r.M)
         for (const int threads : r.threads)
-          for (const std::string& backend : r.backends) {
-            p.integrator = integrator;
-            p.order = order;
-            p.backend = backend;
-            p.M = M;
-            p.threads = all.find_backend(backend).traits.threads == runtime::serial ? 1 : threads;
-            if (std::ranges::find(points, p) == points.end()) points.push_back(p);
-          }
+          for (const std::string& backend : r.backends)
+            for (const std::string& granularity : r.granularities) {
+              const backend_traits& traits = all.find_backend(backend).traits;
+              p.integrator = integrator;
+              p.order = order;
+              p.backend = backend;
+              p.M = M;
+              p.threads = traits.threads == runtime::serial ? 1 : threads;
+              p.granularity = granularity_of(granularity, traits);
+              if (std::ranges::find(points, p) == points.end()) points.push_back(p);
+            }
   return points;
 }
 
@@ -107,10 +118,11 @@ std::vector<world_plan> expand(const run_request& r, const registry& all) {
   return worlds;
 }
 
-std::vector<std::size_t> shuffled_order(std::size_t n, std::uint64_t seed, int repetition) {
+std::vector<std::size_t> shuffled_order(std::size_t n, std::uint64_t seed, int round, int repetition) {
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const counter_random random(seed, 1000 + static_cast<std::uint64_t>(repetition));
+  const counter_random random(
+      seed, 1000 + (static_cast<std::uint64_t>(round) << 32) + static_cast<std::uint64_t>(repetition));
   for (std::size_t k = n; k > 1; --k) std::swap(order[k - 1], order[random.bits(k) % k]);  // Fisher-Yates
   return order;
 }

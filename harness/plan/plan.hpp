@@ -8,9 +8,9 @@
 
 namespace pairsum::harness {
 
-/// What the user asked `pairsum run` for; lists are crossed.
+/// Points to be measured together: lists of levels, which are crossed, and how often.
 struct run_request {
-  std::string study = "run";
+  std::string study = "run", part = "run";
   std::string case_name = "dam_break";
   std::vector<double> dx{0.02};
   std::vector<std::string> states{"rest"};
@@ -20,11 +20,11 @@ struct run_request {
   int dim = 3;
   double H = 0;  ///< 0: 2 dx
   std::vector<std::string> orders{"lattice"}, precisions{"double"}, interactions{"ferrari09"},
-      smoothings{"wendland_c2"}, integrators{"euler"};
+      smoothings{"wendland_c2"}, integrators{"euler"}, granularities{"default"};
   std::string grid = "hashed_grid", outside = "error";
   double dt = 1e-5;
-  int steps = 5, repetitions = 6;
-  double budget_s = 0;  ///< 0: none
+  int steps = 5;
+  int repetitions = 1;  ///< of each point in a round, that is in one process
   std::uint64_t seed = 1;
 };
 
@@ -36,6 +36,9 @@ void check_request(const run_request& r, const registry& all = registry::instanc
 /// interaction and smoothing kernel. Headline first: in the order of the request; particle numbers are filled in later.
 using world_plan = std::vector<point>;
 
+/// The word for a backend's own granularity.
+inline constexpr std::string_view default_granularity = "default";
+
 /// What stands for the smoothing kernel of an interaction that takes none.
 inline constexpr std::string_view no_smoothing = "none";
 
@@ -43,8 +46,8 @@ inline constexpr std::string_view no_smoothing = "none";
 /// smoothing kernel appears once.
 std::vector<world_plan> expand(const run_request& r, const registry& all = registry::instance());
 
-/// The order in which repetition `repetition` measures `n` points: a permutation that depends on (seed, repetition)
-/// alone.
-std::vector<std::size_t> shuffled_order(std::size_t n, std::uint64_t seed, int repetition);
+/// The order in which repetition `repetition` of round `round` measures `n` points: a permutation that depends on
+/// (seed, round, repetition) alone.
+std::vector<std::size_t> shuffled_order(std::size_t n, std::uint64_t seed, int round, int repetition);
 
 }  // namespace pairsum::harness

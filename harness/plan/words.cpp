@@ -43,7 +43,9 @@ std::vector<int> parse_counts(const std::string& option, const std::string& text
   std::vector<int> values;
   for (const std::string& word : parse_words(option, text)) {
     const std::size_t dots = word.find("..");
-    if (word == "all" && cores > 0) {
+    if (word == "cores" && cores > 0) {
+      add_once(values, cores);
+    } else if (word == "all" && cores > 0) {
       for (int t = 1; t < cores; t *= 2) add_once(values, t);
       add_once(values, cores);
     } else if (dots != word.npos) {
@@ -57,6 +59,10 @@ std::vector<int> parse_counts(const std::string& option, const std::string& text
     }
   }
   return values;
+}
+
+std::uint64_t parse_seed(const std::string& option, const std::string& text) {
+  return number<std::uint64_t>(option, text, "a whole number from 0");
 }
 
 std::vector<double> parse_numbers(const std::string& option, const std::string& text) {

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "harness/verify/pack.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -18,15 +19,39 @@ rate_table as_rates(const expectation& e, std::size_t rows) {
 
 }  // namespace
 
-verifier::verifier(const registry& r, const setup& s, particle_table initial, const team& t)
-    : reference_(r.make_reference(s)), initial_(std::move(initial)) {
-  if (initial_.size() <= brute_force_limit) {
-    expected_ = reference_->brute_force(initial_, t);
-    return;
-  }
-  expected_ = reference_->cell_search(initial_, t);
-  const verdict self = compare(as_rates(expected_, initial_.size()), sampled(initial_, 1000, 0, t));
+verifier::verifier(const registry& r, const setup& s, const particle_table& initial, const team& t, shared_store* store,
+                   std::string key)
+    : reference_(r.make_reference(s)), store_(store), key_(std::move(key)) {
+  if (store_ != nullptr)
+    if (const auto verdicts = store_->load(key_ + "/verdicts")) {  // saved after the reference
+      known_ = unpack_verdicts(*verdicts);
+      return;
+    }
+  expected_ = reference_of(initial, t);
+  if (store_ == nullptr) return;
+  store_->save(key_ + "/reference", pack(*expected_));
+  remember();
+}
+
+expectation verifier::reference_of(const particle_table& initial, const team& t) const {
+  if (initial.size() <= brute_force_limit) return reference_->brute_force(initial, t);
+  expectation e = reference_->cell_search(initial, t);
+  const verdict self = compare(as_rates(e, initial.size()), sampled(initial, 1000, 0, t));
   if (!self.ok) throw error("the reference contradicts brute force: " + self.error);
+  return e;
+}
+
+const expectation& verifier::initial_expectation() {
+  if (!expected_) {
+    const auto bytes = store_->load(key_ + "/reference");
+    if (!bytes) throw error("the store that the processes of a study share has lost the reference");
+    expected_ = unpack_expectation(*bytes);
+  }
+  return *expected_;
+}
+
+void verifier::remember() {
+  if (store_ != nullptr) store_->save(key_ + "/verdicts", pack(known_));
 }
 
 expectation verifier::sampled(const particle_table& p, std::size_t n, std::uint64_t seed, const team& t) const {
@@ -50,7 +75,7 @@ verifier::outcome verifier::check(summation& s, const moment& when, const team& 
   const auto seen = known_.find({when, o.fingerprint});
   o.known = seen != known_.end();
   const verdict v = o.known                ? seen->second
-                    : when.evaluation == 1 ? compare(s.rates(), expected_)
+                    : when.evaluation == 1 ? compare(s.rates(), initial_expectation())
                                            : compare(s.rates(), expect_now(s.snapshot(), when.evaluation, t));
   o.ok = v.ok;
   o.max_rel_err = v.max_rel_err;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "harness/verify/compare.hpp"
+#include "harness/verify/shared_store.hpp"
 #include "sum/registry.hpp"
 
 namespace pairsum::harness {
@@ -19,8 +20,14 @@ class verifier {
  public:
   static constexpr std::size_t brute_force_limit = 20000, later_samples = 256;
 
-  /// `initial`: the particles that load() gets. Throws pairsum::error if the reference contradicts itself.
-  verifier(const registry& r, const setup& s, particle_table initial, const team& t);
+  /// `initial`: the particles that load() gets. With a `store` the reference and the verdicts of an earlier process are
+  /// taken from there, under `key`, which must name the same particles, setup and build; the reference is read when it
+  /// is first needed. Throws pairsum::error if the reference contradicts itself.
+  verifier(const registry& r, const setup& s, const particle_table& initial, const team& t,
+           shared_store* store = nullptr, std::string key = "");
+
+  /// Hands the verdicts to the processes that come later, if there is a store.
+  void remember();
 
   /// Which state of which trajectory: the integrator and the number of evaluations, from 1 at the initial state.
   struct moment {
@@ -40,16 +47,19 @@ class verifier {
   /// Checks the rates of the evaluation that was made last.
   outcome check(summation& s, const moment& when, const team& t);
 
-  const expectation& initial_expectation() const { return expected_; }
+  /// The reference of the initial state.
+  const expectation& initial_expectation();
 
  private:
+  expectation reference_of(const particle_table& initial, const team& t) const;
   expectation sampled(const particle_table& p, std::size_t n, std::uint64_t seed, const team& t) const;
 
   expectation expect_now(const particle_table& p, int evaluation, const team& t) const;
 
   std::unique_ptr<reference> reference_;
-  particle_table initial_;
-  expectation expected_;
+  std::optional<expectation> expected_;  ///< empty until it is needed, if it is in the store
+  shared_store* store_;
+  std::string key_;
   std::map<std::pair<moment, std::uint64_t>, verdict> known_;
 };
 

@@ -75,7 +75,7 @@ def test_rows_with_an_unknown_key_are_rejected(rows, validator):
         objects = [()] + [place for place in places(row)
                           if place[-1] in ("point", "phases", "work", "verify", "counters")]
         for place in objects:
-            if place and row[place[0]] is None:
+            if place and not isinstance(row[place[0]], dict):
                 continue
             assert not validator.is_valid(changed(row, place + ("note",), 1)), place
 

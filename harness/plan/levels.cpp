@@ -1,0 +1,117 @@
+#include "harness/plan/levels.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "harness/plan/words.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+using nlohmann::json;
+
+/// A number, a text or a list of them as the text that the command line would take.
+std::string joined(const std::string& key, const json& value) {
+  const auto scalar = [&](const json& v) {
+    if (v.is_string()) return v.get<std::string>();
+    if (v.is_number()) return v.dump();
+    throw error(
+        fmt::format("the plan's \"{}\" should be a number, a text or a list of them, is {}", key, value.dump()));
+  };
+  if (!value.is_array()) return scalar(value);
+  std::string text;
+  for (const json& v : value) text += (text.empty() ? "" : ",") + scalar(v);
+  return text;
+}
+
+struct level {
+  std::function<void(run_request&, const std::string& key, const std::string& text, int cores)> read;
+  std::function<json(const run_request&)> write;
+};
+
+level words(std::vector<std::string> run_request::*member) {
+  return {[member](run_request& r, const std::string& key, const std::string& text, int) {
+            r.*member = parse_words(key, text);
+          },
+          [member](const run_request& r) { return json(r.*member); }};
+}
+level word(std::string run_request::*member) {
+  return {[member](run_request& r, const std::string&, const std::string& text, int) { r.*member = text; },
+          [member](const run_request& r) { return json(r.*member); }};
+}
+level counts(std::vector<int> run_request::*member, bool machine = false) {
+  return {[member, machine](run_request& r, const std::string& key, const std::string& text, int cores) {
+            r.*member = parse_counts(key, text, machine ? cores : 0);
+          },
+          [member](const run_request& r) { return json(r.*member); }};
+}
+level count(int run_request::*member) {
+  return {[member](run_request& r, const std::string& key, const std::string& text, int) {
+            r.*member = parse_counts(key, text, 0).front();
+          },
+          [member](const run_request& r) { return json(r.*member); }};
+}
+level number(double run_request::*member) {
+  return {[member](run_request& r, const std::string& key, const std::string& text, int) {
+            r.*member = parse_numbers(key, text).front();
+          },
+          [member](const run_request& r) { return json(r.*member); }};
+}
+
+const std::map<std::string, level>& levels() {
+  using r = run_request;
+  static const std::map<std::string, level> all{
+      {"case", word(&r::case_name)},
+      {"dx",
+       {[](r& q, const std::string& key, const std::string& text, int) { q.dx = parse_numbers(key, text); },
+        [](const r& q) { return json(q.dx); }}},
+      {"state", words(&r::states)},
+      {"backend", words(&r::backends)},
+      {"M", counts(&r::M)},
+      {"threads", counts(&r::threads, true)},
+      {"dim", count(&r::dim)},
+      {"H", number(&r::H)},
+      {"order", words(&r::orders)},
+      {"precision", words(&r::precisions)},
+      {"interaction", words(&r::interactions)},
+      {"smoothing", words(&r::smoothings)},
+      {"integrator", words(&r::integrators)},
+      {"granularity", words(&r::granularities)},
+      {"grid", word(&r::grid)},
+      {"outside", word(&r::outside)},
+      {"dt", number(&r::dt)},
+      {"steps", count(&r::steps)},
+      {"repetitions", count(&r::repetitions)},
+      {"seed",
+       {[](r& q, const std::string& key, const std::string& text, int) { q.seed = parse_seed(key, text); },
+        [](const r& q) { return json(q.seed); }}},
+  };
+  return all;
+}
+
+}  // namespace
+
+bool read_level(run_request& r, const std::string& key, const json& value, int cores) {
+  const auto at = levels().find(key);
+  if (at == levels().end()) return false;
+  at->second.read(r, key, joined(key, value), cores);
+  return true;
+}
+
+json levels_json(const run_request& r) {
+  json j = json::object();
+  for (const auto& [key, level] : levels()) j[key] = level.write(r);
+  return j;
+}
+
+std::string level_words() {
+  std::string text;
+  for (const auto& [key, level] : levels()) text += (text.empty() ? "" : ", ") + key;
+  return text;
+}
+
+}  // namespace pairsum::harness

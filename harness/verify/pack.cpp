@@ -1,0 +1,128 @@
+#include "harness/verify/pack.hpp"
+
+#include <cstring>
+#include <type_traits>
+
+#include "core/error.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+class packer {
+ public:
+  template <class T>
+  requires std::is_trivially_copyable_v<T>
+  void put(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
+  void put(const std::string& text) {
+    put(text.size());
+    bytes += text;
+  }
+  template <class T>
+  void put(const std::vector<T>& values) {
+    put(values.size());
+    if constexpr (std::is_trivially_copyable_v<T>)
+      bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    else
+      for (const T& value : values) put(value);
+  }
+
+  std::string bytes;
+};
+
+class unpacker {
+ public:
+  explicit unpacker(const std::string& bytes) : bytes_(bytes) {}
+
+  template <class T>
+  requires std::is_trivially_copyable_v<T>
+  void get(T& value) { std::memcpy(&value, take(sizeof value), sizeof value); }
+  void get(std::string& text) {
+    std::size_t size = 0;
+    get(size);
+    text.assign(take(size), size);
+  }
+  template <class T>
+  void get(std::vector<T>& values) {
+    std::size_t size = 0;
+    get(size);
+    if constexpr (std::is_trivially_copyable_v<T>) {
+      const char* const from = take(size * sizeof(T));
+      values.resize(size);
+      if (size > 0) std::memcpy(values.data(), from, size * sizeof(T));
+    } else {
+      if (size > bytes_.size()) take(size);
+      values.resize(size);
+      for (T& value : values) get(value);
+    }
+  }
+
+ private:
+  const char* take(std::size_t size) {
+    if (size > bytes_.size() - at_) throw error("the store that the processes of a study share holds a cut record");
+    const char* const from = bytes_.data() + at_;
+    at_ += size;
+    return from;
+  }
+  const std::string& bytes_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+std::string pack(const expectation& e) {
+  packer p;
+  p.put(e.names);
+  p.put(e.ids);
+  p.put(e.value);
+  p.put(e.bound);
+  p.put(e.magnitude);
+  p.put(e.pairs_fluid_fluid);
+  p.put(e.pairs_fluid_boundary);
+  return std::move(p.bytes);
+}
+
+expectation unpack_expectation(const std::string& bytes) {
+  unpacker u(bytes);
+  expectation e;
+  u.get(e.names);
+  u.get(e.ids);
+  u.get(e.value);
+  u.get(e.bound);
+  u.get(e.magnitude);
+  u.get(e.pairs_fluid_fluid);
+  u.get(e.pairs_fluid_boundary);
+  return e;
+}
+
+std::string pack(const verdict_map& known) {
+  packer p;
+  p.put(known.size());
+  for (const auto& [key, v] : known) {
+    p.put(key.first.integrator);
+    p.put(key.first.evaluation);
+    p.put(key.second);
+    p.put(v.max_rel_err);
+    p.put(v.bound);
+  }
+  return std::move(p.bytes);
+}
+
+verdict_map unpack_verdicts(const std::string& bytes) {
+  unpacker u(bytes);
+  verdict_map known;
+  std::size_t size = 0;
+  u.get(size);
+  for (std::size_t k = 0; k < size; ++k) {
+    std::pair<verifier::moment, std::uint64_t> key;
+    verdict v;
+    u.get(key.first.integrator);
+    u.get(key.first.evaluation);
+    u.get(key.second);
+    u.get(v.max_rel_err);
+    u.get(v.bound);
+    known.emplace(std::move(key), std::move(v));
+  }
+  return known;
+}
+
+}  // namespace pairsum::harness
