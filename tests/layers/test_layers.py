@@ -25,6 +25,7 @@ ALLOWED = {  # folder: folders it may include, besides itself
     "harness/stats": ["core"],
     "harness/measure": ["core"],
     "harness/environment": ["core", "harness/rows"],
+    "harness/model": ["core", "sum", "harness/measure"],
     "harness/plan": ["core", "cases", "integrators", "sum", "harness/rows", "harness/environment"],
     "harness/verify": ["core", "particles", "cases", "sum", "harness/measure"],
     "harness/run": ["core", "cases", "integrators", "sum", "harness/rows", "harness/plan", "harness/measure", "harness/verify",
