@@ -15,7 +15,10 @@ struct naive_omp {
       .threads = runtime::omp,
       .symmetric = false,
       .deterministic = true,
-      .accumulates = false};
+      .accumulates = false,
+      .evaluations_per_pair = 2,
+      .sweeps_per_colour = false,
+      .keeps_pairs = false};
 
   template <class I>
   struct workspace {

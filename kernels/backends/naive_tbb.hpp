@@ -19,7 +19,10 @@ struct naive_tbb {
       .threads = runtime::tbb,
       .symmetric = false,
       .deterministic = true,
-      .accumulates = false};
+      .accumulates = false,
+      .evaluations_per_pair = 2,
+      .sweeps_per_colour = false,
+      .keeps_pairs = false};
 
   template <class I>
   struct workspace {

@@ -24,7 +24,10 @@ struct symmetric_tbb {
       .threads = runtime::tbb,
       .symmetric = true,
       .deterministic = true,
-      .accumulates = true};
+      .accumulates = true,
+      .evaluations_per_pair = 1,
+      .sweeps_per_colour = true,
+      .keeps_pairs = false};
 
   template <class I>
   struct workspace : coloured_workspace<I> {
