@@ -16,7 +16,7 @@ struct machine {
 
 machine describe_machine();
 
-/// Threads the machine has for this process (hardware threads it may run on).
+/// Threads the machine has for this process (hardware threads it may run on), as it was when first asked.
 int usable_cores();
 
 }  // namespace pairsum::harness

@@ -1,23 +1,56 @@
 #include "harness/measure/worker_team.hpp"
 
 #include <omp.h>
+#include <tbb/task_scheduler_observer.h>
 
 #include "core/tbb_arena.hpp"
+#include "harness/measure/binding.hpp"
 
 namespace pairsum::harness {
 
-worker_team::worker_team(runtime kind, int threads) {
+/// Binds whoever enters an arena to the unit of the slot taken there.
+class worker_team::slot_binder : public ::tbb::task_scheduler_observer {
+ public:
+  slot_binder(::tbb::task_arena& arena, const thread_binding& binding)
+      : task_scheduler_observer(arena), binding_(binding) {
+    observe(true);
+  }
+  ~slot_binder() override { observe(false); }
+
+  void on_scheduler_entry(bool) override { binding_.bind_this_thread(::tbb::this_task_arena::current_thread_index()); }
+  void on_scheduler_exit(bool is_worker) override {
+    if (is_worker) binding_.release_this_thread();  // the caller stays where it is between two phases
+  }
+
+ private:
+  const thread_binding& binding_;
+};
+
+worker_team::worker_team(runtime kind, int threads, const thread_binding* binding) : binding_(binding) {
   if (kind == runtime::omp) {
     team_ = team::omp(threads);
+    if (binding_) {
+#pragma omp parallel num_threads(threads)
+      binding_->bind_this_thread(omp_get_thread_num());
+    }
     return;
   }
   omp_pause_resource_all(omp_pause_hard);
   if (kind == runtime::tbb) {
     arena_ = std::make_unique<tbb_arena>(threads);
     team_ = team::tbb(threads, *arena_);
+    if (binding_) binder_ = std::make_unique<slot_binder>(arena_->arena, *binding_);
   }
+  if (binding_) binding_->bind_this_thread(0);
 }
 
-worker_team::~worker_team() = default;
+worker_team::~worker_team() {
+  if (!binding_) return;
+  if (team_.kind() == runtime::omp) {
+#pragma omp parallel num_threads(team_.threads())
+    binding_->release_this_thread();
+  }
+  binding_->release_this_thread();
+}
 
 }  // namespace pairsum::harness

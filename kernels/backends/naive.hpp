@@ -20,7 +20,10 @@ struct naive {
       .threads = runtime::serial,
       .symmetric = false,
       .deterministic = true,
-      .accumulates = false};
+      .accumulates = false,
+      .evaluations_per_pair = 2,
+      .sweeps_per_colour = false,
+      .keeps_pairs = false};
 
   template <class I>
   struct workspace {

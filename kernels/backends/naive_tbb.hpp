@@ -17,6 +17,9 @@ struct naive_tbb {
       .symmetric = false,
       .deterministic = true,
       .accumulates = false,
+      .evaluations_per_pair = 2,
+      .sweeps_per_colour = false,
+      .keeps_pairs = false,
       .loop = {schedule::automatic, 64}};
 
   template <class I>

@@ -54,7 +54,10 @@ struct pair_list {
       .threads = runtime::serial,
       .symmetric = true,
       .deterministic = true,
-      .accumulates = true};
+      .accumulates = true,
+      .evaluations_per_pair = 1,
+      .sweeps_per_colour = false,
+      .keeps_pairs = true};
 
   template <class I>
   struct workspace {
@@ -66,10 +69,11 @@ struct pair_list {
     }
 
     template <class Probe>
-    void sum(const problem<I>& p, const team&, Probe&) {
+    void sum(const problem<I>& p, const team&, Probe& probe) {
       using real = typename I::real;
       const auto* const row = list.row.data();
       const std::uint32_t* const partner = list.partner.data();
+      if constexpr (Probe::counting) probe.evaluated(list.partner.size());
       for (std::size_t i = 0; i < p.fluid_count; ++i) {
         const auto x_i = p.position(i);
         const auto a = p.fluid.load(i);

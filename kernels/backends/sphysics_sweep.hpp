@@ -19,7 +19,10 @@ struct sphysics_sweep {
       .threads = runtime::serial,
       .symmetric = true,
       .deterministic = true,
-      .accumulates = true};
+      .accumulates = true,
+      .evaluations_per_pair = 1,
+      .sweeps_per_colour = false,
+      .keeps_pairs = false};
 
   template <class I>
   struct workspace {

@@ -21,7 +21,10 @@ struct symmetric {
       .threads = runtime::serial,
       .symmetric = true,
       .deterministic = true,
-      .accumulates = true};
+      .accumulates = true,
+      .evaluations_per_pair = 1,
+      .sweeps_per_colour = true,
+      .keeps_pairs = false};
 
   template <class I>
   struct workspace : coloured_workspace<I> {

@@ -25,6 +25,9 @@ struct symmetric_omp {
       .symmetric = true,
       .deterministic = true,
       .accumulates = true,
+      .evaluations_per_pair = 1,
+      .sweeps_per_colour = true,
+      .keeps_pairs = false,
       .loop = {schedule::dynamic, 32}};
 
   template <class I>

@@ -22,6 +22,9 @@ struct symmetric_tbb {
       .symmetric = true,
       .deterministic = true,
       .accumulates = true,
+      .evaluations_per_pair = 1,
+      .sweeps_per_colour = true,
+      .keeps_pairs = false,
       .loop = {schedule::automatic, 32}};
 
   template <class I>

@@ -24,6 +24,9 @@ inline T norm2(const vec<D, T>& r) {
   return sum;
 }
 
+/// Flops of a distance test in D dimensions: x_i - x_j, norm2, the comparison. A fused multiply-add counts 2.
+constexpr int distance_test_flops(int D) { return D + (2 * D - 1) + 1; }
+
 /// A closed axis-parallel cuboid [low, high]; the Omega of the talk. Units: m.
 template <int D, class R>
 struct box {

@@ -12,6 +12,7 @@ class count {
   static constexpr int dim = D;
   using real = R;
   static constexpr double boundary_reach = 1;
+  static constexpr pair_flops flops{};  // integers
 
   template <class T>
   struct particle {

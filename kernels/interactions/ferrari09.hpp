@@ -21,6 +21,9 @@ class ferrari09 {
   using real = R;
   using smoothing = Smoothing<D, R>;
   static constexpr double boundary_reach = 0.5;
+  static constexpr pair_flops flops{.both = 18 + 7 * D + smoothing::slope_flops,
+                                    .one_sided = 13 + 5 * D + smoothing::slope_flops,
+                                    .boundary = 8 + 5 * D + smoothing::slope_flops};
 
   template <class T>
   struct particle {

@@ -29,6 +29,15 @@ struct contributions {
   Rates to_i, to_j;
 };
 
+/// Flops of an interaction's pairs, those of adding to the rates among them: + - * / sqrt, max, comparison, select and
+/// exp count 1 each, a change of sign nothing. r and r.r are there from the distance test.
+struct pair_flops {
+  int both = 0;       ///< a fluid pair that updates both particles
+  int one_sided = 0;  ///< a fluid pair that updates i alone, where nothing but to_i is computed
+  int boundary = 0;   ///< a boundary particle's effect on a fluid particle
+  bool operator==(const pair_flops&) const = default;
+};
+
 /// What a particle brings of which only the place matters.
 struct nothing {
   static constexpr auto fields() { return std::tuple<>{}; }
@@ -56,6 +65,10 @@ concept has_boundary = requires {
 ///   boundary(r, r2, i, b)  what boundary particle b adds to fluid particle i, for r2 < (boundary_reach H)^2
 ///   boundary_reach         in (0, 1]
 ///   boundary_is_singular   true if there is no finite force at r = 0: such particles are refused
+///
+/// and, to be held to it by a test,
+///
+///   flops                  pair_flops of the formula
 template <class I>
 concept interaction = requires(const I& f, const particle_state<I::dim, typename I::real>& s,
                                const vec<I::dim, typename I::real>& r, typename I::real r2,

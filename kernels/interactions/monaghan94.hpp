@@ -22,6 +22,9 @@ class monaghan94 {
   using smoothing = Smoothing<D, R>;
   static constexpr double boundary_reach = 0.25;
   static constexpr bool boundary_is_singular = true;
+  static constexpr pair_flops flops{.both = 19 + 7 * D + smoothing::slope_flops,
+                                    .one_sided = 16 + 5 * D + smoothing::slope_flops,
+                                    .boundary = 5 + 2 * D};
   static constexpr double alpha = 0.01, beta = 0, wall_strength = 100;
 
   template <class T>

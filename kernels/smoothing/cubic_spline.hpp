@@ -15,6 +15,7 @@ class cubic_spline {
 
  public:
   static constexpr std::string_view name = "cubic_spline";
+  static constexpr int slope_flops = 11;  ///< of slope_over_r
 
   /// H: support radius in m, positive.
   explicit cubic_spline(double H) : inv_h_(R(2 / H)) {

@@ -16,6 +16,7 @@ class gaussian {
 
  public:
   static constexpr std::string_view name = "gaussian";
+  static constexpr int slope_flops = 5;  ///< of slope_over_r
 
   /// H: support radius in m, positive.
   explicit gaussian(double H) : inv_H_(R(1 / H)) {

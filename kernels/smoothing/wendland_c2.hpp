@@ -15,6 +15,7 @@ class wendland_c2 {
 
  public:
   static constexpr std::string_view name = "wendland_c2";
+  static constexpr int slope_flops = D == 1 ? 4 : 5;  ///< of slope_over_r
 
   /// H: support radius in m, positive.
   explicit wendland_c2(double H) : inv_H_(R(1 / H)) {

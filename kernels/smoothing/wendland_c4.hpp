@@ -16,6 +16,7 @@ class wendland_c4 {
 
  public:
   static constexpr std::string_view name = "wendland_c4";
+  static constexpr int slope_flops = D == 1 ? 8 : 9;  ///< of slope_over_r
 
   /// H: support radius in m, positive.
   explicit wendland_c4(double H) : inv_H_(R(1 / H)) {

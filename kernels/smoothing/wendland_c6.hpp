@@ -16,6 +16,7 @@ class wendland_c6 {
 
  public:
   static constexpr std::string_view name = "wendland_c6";
+  static constexpr int slope_flops = D == 1 ? 11 : 12;  ///< of slope_over_r
 
   /// H: support radius in m, positive.
   explicit wendland_c6(double H) : inv_H_(R(1 / H)) {

@@ -17,7 +17,13 @@ struct backend_traits {
   bool symmetric;                ///< each pair computed once, both particles updated
   bool deterministic;            ///< bit-identical for every number of threads
   bool accumulates;              ///< adds to the rates, which the caller has zeroed; else it writes each rate once
+  int evaluations_per_pair;      ///< how often a sum evaluates the formula for an interacting fluid pair
+  bool sweeps_per_colour;        ///< a sum goes over all particles once per colour of the blocks; else once
+  bool keeps_pairs;              ///< prepare tests the distances and lists the pairs; else sum tests them
   granularity loop{};            ///< how it shares out its loops unless the team says; none without such loops
+
+  /// How often a sum goes over the particles in `dim` dimensions.
+  constexpr int sweeps(int dim) const { return sweeps_per_colour ? 1 << dim : 1; }
 };
 
 /// A summation algorithm: `traits`, and a `workspace<I>` for interaction I that is kept from step to step, with

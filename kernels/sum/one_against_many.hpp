@@ -15,6 +15,7 @@ template <class I, class Probe, class Ranges>
         p.x, x_i, p.boundary_reach2, ranges, [&](std::uint32_t b) __attribute__((always_inline)) {
           const vec<I::dim, typename I::real> r = x_i - p.position(b);
           add(u_i, p.formula->boundary(r, norm2<I::dim, typename I::real>(r), a, p.boundary_particle(b)));
+          if constexpr (Probe::counting) probe.evaluated(1);
         });
     if constexpr (Probe::counting) {
       probe.tested(filter_of<I>::size(ranges));
@@ -37,6 +38,7 @@ template <class I, class Probe, class FluidRanges, class BoundaryRanges>
         const auto c = p.formula->pair(r, norm2<I::dim, typename I::real>(r), a, p.fluid.load(j));
         add(u_i, c.to_i);
         p.u.add(j, c.to_j);
+        if constexpr (Probe::counting) probe.evaluated(1);
       });
   if constexpr (Probe::counting) {
     probe.tested(filter_of<I>::size(fluid));
@@ -58,7 +60,10 @@ template <class I, class Probe, class FluidRanges, class BoundaryRanges>
       p.x, x_i, p.reach2, fluid, [&](std::uint32_t j) __attribute__((always_inline)) {
         const vec<I::dim, typename I::real> r = x_i - p.position(j);
         add(u_i, p.formula->pair(r, norm2<I::dim, typename I::real>(r), a, p.fluid.load(j)).to_i);
-        if constexpr (Probe::counting) probe.fluid_pairs(j < i);
+        if constexpr (Probe::counting) {
+          probe.fluid_pairs(j < i);
+          probe.evaluated(1);
+        }
       });
   if constexpr (Probe::counting) probe.tested(filter_of<I>::size(fluid));
   add_boundary(p, i, a, boundary, u_i, probe);

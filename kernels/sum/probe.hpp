@@ -12,6 +12,7 @@ struct work_counts {
   std::uint64_t pairs_tested = 0;       ///< distance tests made
   std::uint64_t pairs_fluid_fluid = 0;  ///< interacting pairs, each once
   std::uint64_t pairs_fluid_boundary = 0;
+  std::uint64_t pairs_evaluated = 0;  ///< times the formula was evaluated
 
   std::uint64_t pairs_interacting() const { return pairs_fluid_fluid + pairs_fluid_boundary; }
 };
@@ -29,6 +30,7 @@ struct no_probe : pass_marks {
   void tested(std::uint64_t) {}
   void fluid_pairs(std::uint64_t) {}
   void boundary_pairs(std::uint64_t) {}
+  void evaluated(std::uint64_t) {}
 };
 
 /// Counts; for one thread, unobserved.
@@ -40,6 +42,7 @@ struct work_probe : pass_marks {
   void tested(std::uint64_t n) { counts.pairs_tested += n; }
   void fluid_pairs(std::uint64_t n) { counts.pairs_fluid_fluid += n; }
   void boundary_pairs(std::uint64_t n) { counts.pairs_fluid_boundary += n; }
+  void evaluated(std::uint64_t n) { counts.pairs_evaluated += n; }
 };
 
 }  // namespace pairsum

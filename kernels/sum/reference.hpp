@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "particles/particle_table.hpp"
+#include "sum/costs.hpp"
 #include "sum/rate_table.hpp"
 
 namespace pairsum {
@@ -19,6 +20,9 @@ class reference {
 
   /// All fluid particles by a cell search of its own (sorted cell numbers, cells 1 % wider than H): O(N log N).
   virtual expectation cell_search(const particle_table& p, const team& t) const = 0;
+
+  /// What the formula costs by the piece.
+  virtual formula_costs costs() const = 0;
 };
 
 }  // namespace pairsum

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "sum/costs_of.hpp"
 #include "sum/rate_names.hpp"
 #include "sum/reference.hpp"
 #include "sum/running_error.hpp"
@@ -39,6 +40,8 @@ class reference_of final : public reference {
     const search s(w, H_);
     return evaluate(w, w.fluid, t, [&](std::uint32_t i, auto&& meet) { s.around(w, i, meet); });
   }
+
+  formula_costs costs() const override { return costs_of(formula_); }
 
  private:
   /// The particles, rounded to R; what they bring to a pair is derived when it is asked for, or beforehand for all.

@@ -33,6 +33,7 @@ requires backend<B, I>
 class summation_of final : public interaction_state<I> {
   using base = interaction_state<I>;
   using base::view_;
+  static_assert(B::traits.evaluations_per_pair > 0, "the backend's traits lack evaluations_per_pair");
 
  public:
   explicit summation_of(const setup& s) : base(s) {}

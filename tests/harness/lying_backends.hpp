@@ -107,6 +107,8 @@ class contradicts_itself final : public reference {
     return e;
   }
 
+  formula_costs costs() const override { return right_->costs(); }
+
  private:
   std::unique_ptr<reference> right_;
   double off_;

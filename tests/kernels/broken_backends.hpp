@@ -32,7 +32,10 @@ struct broken_symmetric {
                                          .threads = runtime::serial,
                                          .symmetric = true,
                                          .deterministic = true,
-                                         .accumulates = true};
+                                         .accumulates = true,
+                                         .evaluations_per_pair = 1,
+                                         .sweeps_per_colour = true,
+                                         .keeps_pairs = false};
 
   template <class I>
   struct workspace {
@@ -76,6 +79,7 @@ struct broken_symmetric {
       const real r2 = norm2<I::dim, real>(r);
       if (!(r2 < p.reach2)) return;
       probe.fluid_pairs(1);
+      probe.evaluated(1);
       auto c = p.formula->pair(r, r2, p.fluid.load(i), p.fluid.load(j));
       if (!planted && F != fault::none && acts(c.to_j)) {
         planted = true;
@@ -99,6 +103,7 @@ struct broken_symmetric {
           const real r2 = norm2<I::dim, real>(r);
           if (!(r2 < p.boundary_reach2)) continue;
           probe.boundary_pairs(1);
+          probe.evaluated(1);
           p.u.add(i, p.formula->boundary(r, r2, p.fluid.load(i), p.boundary_particle(b)));
         }
     }

@@ -67,7 +67,10 @@ TEST(registry, an_unavailable_backend_is_listed_and_says_what_it_needs) {
                    .threads = runtime::serial,
                    .symmetric = false,
                    .deterministic = false,
-                   .accumulates = false},
+                   .accumulates = false,
+                   .evaluations_per_pair = 2,
+                   .sweeps_per_colour = false,
+                   .keeps_pairs = false},
                   "needs CUDA");
   EXPECT_EQ(r.backends().size(), 1u);
   EXPECT_TRUE(says(error_of([&] { (void)r.find_backend("cuda"); }), {"cuda", "unavailable", "needs CUDA"}));

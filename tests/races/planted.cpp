@@ -14,7 +14,10 @@ constexpr backend_traits traits_of_planted(std::string_view name) {
           .threads = runtime::omp,
           .symmetric = true,
           .deterministic = false,
-          .accumulates = true};
+          .accumulates = true,
+          .evaluations_per_pair = 1,
+          .sweeps_per_colour = true,
+          .keeps_pairs = false};
 }
 
 /// No barrier after a pass: a thread starts the next colour while others still write its cells.
