@@ -73,7 +73,8 @@ std::string describe_build() {
                      build::dirty ? ", modified" : "", compiler(), PAIRSUM_FLAGS, compiled_isa());
 }
 
-environment_row describe_environment(const std::string& study) {
+environment_row describe_environment(const std::string& study, const std::string& binding,
+                                     const std::string& counters) {
   const machine m = describe_machine();
   environment_row row;
   row.host = m.host;
@@ -87,7 +88,8 @@ environment_row describe_environment(const std::string& study) {
   row.libraries = libraries();
   row.git = build::git;
   row.dirty = build::dirty;
-  row.binding = "none";
+  row.binding = binding;
+  row.counters = counters;
   row.environment = hash_text(nlohmann::json(row).dump());
   row.study = study;
   row.utc = utc_now();

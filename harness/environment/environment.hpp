@@ -7,7 +7,9 @@ namespace pairsum::harness {
 
 /// Describes this machine and this build. The id (`environment`) is a hash of everything but the time and the study, so
 /// equal conditions have equal ids.
-environment_row describe_environment(const std::string& study);
+/// `binding` and `counters` say how threads are pinned and what the hardware counts.
+environment_row describe_environment(const std::string& study, const std::string& binding = "none",
+                                     const std::string& counters = "none: not asked for");
 
 /// Version, revision, compiler and flags of this build, for --version.
 std::string describe_build();

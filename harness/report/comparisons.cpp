@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "harness/stats/ratio.hpp"
+#include "harness/stats/speedup.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -41,8 +41,7 @@ ratio_estimate compare(const measurements& all, const measured_point& base, cons
     }
   }
   if (!base_times.empty()) return paired_ratio(base_times, other_times);
-  caveats.push_back(label(all, base) + " and " + label(all, other) +
-                    " share no repetition: their ratio is that of the medians, without interval");
+  caveats.push_back(label(all, base) + " and " + label(all, other) + " share no repetition: their ratio is not paired");
   return unpaired_ratio(values_of(base, &phases::sum_s), values_of(other, &phases::sum_s));
 }
 

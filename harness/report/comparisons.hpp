@@ -8,8 +8,7 @@
 
 /// The comparisons between points of a series, as the arrays of summary.json (docs/design.md,
 /// section 4). Times are those of the summation phase. Two points are paired inside the same file,
-/// round and repetition; points that share none are compared by their medians, without interval,
-/// with a caveat.
+/// round and repetition; points that share none are compared unpaired, with a caveat.
 namespace pairsum::harness {
 
 /// Every point against itself on one thread; a missing base leaves the entry out with a caveat.

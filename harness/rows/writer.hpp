@@ -26,6 +26,8 @@ class row_writer {
   void write(const row& value);
 
   const std::filesystem::path& path() const { return path_; }
+  /// Is there an environment row of this id in the file?
+  bool knows(const std::string& environment) const { return environments_.count(environment) != 0; }
 
  private:
   std::filesystem::path path_;

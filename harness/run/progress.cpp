@@ -12,7 +12,7 @@ namespace pairsum::harness {
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) != 0; }
 
 void progress::show(double done, const std::string& what) {
-  const double elapsed = since_start_.seconds();
+  const double elapsed = before_s_ + since_start_.seconds();
   if (!stderr_is_terminal() || elapsed < 2) return;
   const double share = std::clamp(done / total_, 0.0, 1.0);
   constexpr int width = 24;

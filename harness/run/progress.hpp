@@ -11,7 +11,9 @@ class progress {
  public:
   /// `total`: units of work (seconds or points, as long as done() uses the same).
   /// `budget_s`: seconds after which the work ends in any case; 0: none.
-  explicit progress(double total, double budget_s = 0) : total_(total), budget_s_(budget_s) {}
+  /// `before_s`: seconds that went by before, in another process.
+  explicit progress(double total, double budget_s = 0, double before_s = 0)
+      : total_(total), budget_s_(budget_s), before_s_(before_s) {}
   ~progress() { clear(); }
 
   /// `done` units are finished; `what` is under way.
@@ -20,7 +22,7 @@ class progress {
   void clear();
 
  private:
-  double total_, budget_s_;
+  double total_, budget_s_, before_s_;
   bool shown_ = false;
   stopwatch since_start_;
 };

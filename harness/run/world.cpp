@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
+#include "core/granularity.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/measure/memory.hpp"
+#include "harness/measure/pass_times.hpp"
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
 #include "harness/run/interrupt.hpp"
@@ -21,15 +24,38 @@ world_particles::world_particles(const run_request& r, const point& any)
   for (const std::string& order : r.orders) orders[order] = memory_order(order, initial, r.seed);
 }
 
-world::world(const registry& all, const run_request& r, const point& any,
+world::world(const measuring& with, const run_request& r, const point& any,
              std::shared_ptr<const world_particles> particles)
-    : registry_(all), request_(r), any_(any), particles_(std::move(particles)) {
-  registry_.make_summation(setup_for(any))->check(particles_->initial.particles);
+    : with_(with), request_(r), any_(any), particles_(std::move(particles)) {
+  with_.all.make_summation(setup_for(any))->check(particles_->initial.particles);
+}
+
+/// Everything that particles, reference and trajectory depend on, and the build.
+std::string world::key() const {
+  return nlohmann::json{with_.build,      request_.case_name, request_.dim,       request_.H,        request_.outside,
+                        request_.seed,    request_.dt,        any_.dx,            any_.state,        any_.precision,
+                        any_.interaction, any_.smoothing,     any_.grid}
+      .dump();
 }
 
 void world::make_reference() {
-  const worker_team workers(runtime::omp, usable_cores());
-  verifier_ = std::make_unique<verifier>(registry_, setup_for(any_), particles_->initial.particles, workers.get());
+  const worker_team workers(runtime::omp, usable_cores(), &with_.binding);
+  verifier_ = std::make_unique<verifier>(with_.all, setup_for(any_), particles_->initial.particles, workers.get(),
+                                         with_.store, key());
+  recall_work();
+}
+
+void world::recall_work() {
+  if (with_.store == nullptr) return;
+  const auto bytes = with_.store->load(key() + "/work");
+  if (!bytes) return;
+  for (const auto& item : nlohmann::json::parse(*bytes).items()) work_[item.key()] = item.value().get<work_row>();
+}
+
+void world::remember() {
+  if (with_.store == nullptr) return;
+  verifier_->remember();
+  with_.store->save(key() + "/work", nlohmann::json(work_).dump());
 }
 
 setup world::setup_for(const point& p) const {
@@ -50,9 +76,10 @@ void world::complete(point& p) const {
 }
 
 work_row world::work_of(const point& p, summation& s) {
-  const auto [at, is_new] = work_.try_emplace({p.backend, p.M});
+  const auto [at, is_new] = work_.try_emplace(fmt::format("{} {}", p.backend, p.M));
   if (is_new) {
     const work_counts w = s.count_work();
+    if (!unfolded_) unfolded_ = s.count_unfolded_tests();
     at->second = {w.cells,
                   w.cells_nonempty,
                   w.sumF1,
@@ -60,7 +87,10 @@ work_row world::work_of(const point& p, summation& s) {
                   w.pairs_tested,
                   w.pairs_interacting(),
                   w.pairs_fluid_fluid,
-                  w.pairs_fluid_boundary};
+                  w.pairs_fluid_boundary,
+                  {}};
+    if (unfolded_)
+      at->second.pairs_tested_unfolded = s.traits().symmetric ? unfolded_->symmetric : unfolded_->gather;
   }
   return at->second;
 }
@@ -74,18 +104,41 @@ bool worse(const verifier::outcome& a, const verifier::outcome& b) {
   return a.max_rel_err * b.bound > b.max_rel_err * a.bound;
 }
 
+/// Adds b to a, entry by entry; a may be empty yet.
+void add_to(std::optional<thread_times>& a, const thread_times& b) {
+  if (!a) {
+    a = b;
+    return;
+  }
+  for (std::size_t pass = 0; pass < std::min(a->size(), b.size()); ++pass)
+    for (std::size_t k = 0; k < b[pass].size(); ++k) (*a)[pass][k] += b[pass][k];
+}
+
+void add_to(std::optional<std::uint64_t>& a, const std::optional<std::uint64_t>& b) {
+  if (b) a = a.value_or(0) + *b;
+}
+
+void add_to(std::optional<counters_row>& a, const counters::counts& b) {
+  if (!b.cycles && !b.instructions && !b.cache_misses) return;
+  if (!a) a.emplace();
+  add_to(a->cycles, b.cycles);
+  add_to(a->instructions, b.instructions);
+  add_to(a->cache_misses, b.cache_misses);
+}
+
 }  // namespace
 
-world::result world::measure(const point& p) {
+world::result world::measure(const point& p, int steps) {
   result out;
-  const auto summation = registry_.make_summation(setup_for(p));
-  const worker_team workers(summation->traits().threads, p.threads);
-  const team& t = workers.get();
+  const auto summation = with_.all.make_summation(setup_for(p));
+  const runtime kind = summation->traits().threads;
+  const worker_team workers(kind, p.threads, &with_.binding);
+  const team t = workers.get().with(parse_granularity(p.granularity, kind));
   const integrator_entry& integrator = find_integrator(p.integrator);
   reset_peak_rss();
   summation->load(particles_->initial.particles, particles_->orders.at(p.order));
   int evaluations = 0;
-  for (int step = 1; step <= request_.steps && out.error.empty(); ++step) {
+  for (int step = 1; step <= (steps > 0 ? steps : request_.steps) && out.error.empty(); ++step) {
     if (interrupted()) {
       out.interrupted = true;
       break;
@@ -95,6 +148,8 @@ world::result world::measure(const point& p) {
     double checking = 0;
     int evaluations_of_step = 0;
     const auto evaluate = [&] {
+      pass_times passes(p.threads);
+      summation->observe(&passes);
       stopwatch clock;
       summation->index(t);
       times.index_s = times.index_s.value_or(0) + clock.lap();
@@ -102,10 +157,19 @@ world::result world::measure(const point& p) {
       times.prepare_s = times.prepare_s.value_or(0) + clock.lap();
       summation->zero(t);
       times.zero_s = times.zero_s.value_or(0) + clock.lap();
+      with_.hardware.start();
+      checking += clock.lap();
       summation->sum(t);
       times.sum_s = times.sum_s.value_or(0) + clock.lap();
+      add_to(now.counted, with_.hardware.stop());
+      checking += clock.lap();
       summation->reduce(t);
       times.reduce_s = times.reduce_s.value_or(0) + clock.lap();
+      if (passes.any()) {
+        add_to(now.threads_busy_s, passes.busy());
+        add_to(now.barrier_wait_s, passes.waiting());
+      }
+      summation->observe(nullptr);
       out.peak_rss_bytes = peak_rss_bytes();
       const verifier::outcome checked = verifier_->check(*summation, {p.integrator, ++evaluations}, t);
       if (evaluations_of_step++ == 0 || worse(checked, now.checked)) now.checked = checked;

@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "cases/case.hpp"
+#include "harness/measure/binding.hpp"
+#include "harness/measure/counters.hpp"
 #include "harness/plan/plan.hpp"
 #include "harness/verify/verifier.hpp"
 
@@ -13,6 +15,8 @@ namespace pairsum::harness {
 /// One timed (or warming) step of a point.
 struct step_result {
   phases times;
+  std::optional<thread_times> threads_busy_s, barrier_wait_s;
+  std::optional<counters_row> counted;
   verifier::outcome checked;
 };
 
@@ -25,14 +29,26 @@ struct world_particles {
   world_particles(const run_request& r, const point& any);
 };
 
+/// What measurements of a process have in common.
+struct measuring {
+  const registry& all;
+  const thread_binding& binding;
+  counters& hardware;
+  shared_store* store = nullptr;  ///< of references and verdicts, from and for other processes
+  std::string build;              ///< tells the store's entries of different programs apart
+};
+
 /// The particles of one world and their reference, and the measurement of any backend on them.
 class world {
  public:
   /// Checks the particles. `any` is one of the world's points.
-  world(const registry& all, const run_request& r, const point& any, std::shared_ptr<const world_particles> particles);
+  world(const measuring& with, const run_request& r, const point& any,
+        std::shared_ptr<const world_particles> particles);
 
-  /// Computes the reference; to be called before the first measure().
+  /// Makes the reference or finds it in the store; to be called before the first measure().
   void make_reference();
+  /// Hands reference, verdicts and work to the processes that come later.
+  void remember();
 
   /// Fills in what depends on the case: H and particle numbers.
   void complete(point& p) const;
@@ -48,7 +64,8 @@ class world {
 
   /// Loads the initial state and makes the steps. Each step's rates are verified before its times are handed out; a
   /// step's verification is not part of its times.
-  result measure(const point& p);
+  /// @param steps how many; 0: as many as the request says
+  result measure(const point& p, int steps = 0);
 
   std::size_t dropped() const { return particles_->dropped; }
 
@@ -56,12 +73,16 @@ class world {
   setup setup_for(const point& p) const;
   work_row work_of(const point& p, summation& s);
 
-  const registry& registry_;
+  std::string key() const;
+  void recall_work();
+
+  measuring with_;
   run_request request_;
   point any_;
   std::shared_ptr<const world_particles> particles_;
   std::unique_ptr<verifier> verifier_;
-  std::map<std::pair<std::string, int>, work_row> work_;
+  std::map<std::string, work_row> work_;  ///< by backend and M
+  std::optional<unfolded_tests> unfolded_;
 };
 
 }  // namespace pairsum::harness

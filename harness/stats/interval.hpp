@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "harness/stats/median.hpp"
+#include "harness/stats/moments.hpp"
 
 namespace pairsum::harness {
 
-/// An interval that covers the true median with probability `confidence`.
+/// An interval that covers what it estimates with probability `confidence`.
 struct interval {
   double low = 0;
   double high = 0;
@@ -28,7 +29,7 @@ struct median_ranks {
 /// whatever the distribution (David & Nagaraja, Order Statistics, 3rd ed., sec. 7.1).
 /// Empty if even [X_(1), X_(n)] does not reach the level: at 0.95 that is n < 6.
 inline std::optional<median_ranks> ranks_of_median(std::size_t n, double level = 0.95) {
-  if (!(level > 0 && level < 1)) throw error("a confidence level should lie between 0 and 1");
+  check_level(level);
   std::optional<median_ranks> best;
   double log_term = -static_cast<double>(n) * std::log(2.0);  // log of C(n,0) / 2^n
   double tail = 0;
@@ -42,8 +43,10 @@ inline std::optional<median_ranks> ranks_of_median(std::size_t n, double level =
   return best;
 }
 
-/// Distribution-free interval for the median of the distribution the values were drawn from.
-/// Empty if there are too few values for the level. Throws like order_statistics.
+/// Distribution-free interval for the median of the distribution the values were drawn from. If they are independent
+/// but drift, it covers the median of the mean of their distributions at least as often (Hoeffding, Ann. Math. Stat. 27
+/// (1956) 713), and says nothing of the undisturbed one. Empty if there are too few values for the level. Throws like
+/// order_statistics.
 inline std::optional<interval> median_interval(std::span<const double> values, double level = 0.95) {
   const std::vector<double> sorted = order_statistics(values);
   const std::optional<median_ranks> ranks = ranks_of_median(sorted.size(), level);

@@ -3,11 +3,11 @@
 
 namespace pairsum {
 
-/// Calls f with the summation as the state<D, R> it is.
+/// Calls f with the summation, or the one it wraps, as the state<D, R> it is.
 template <class F>
 void with_state(summation& s, F&& f) {
   const auto try_one = [&]<int D, class R>() {
-    auto* const typed = dynamic_cast<state<D, R>*>(&s);
+    auto* const typed = dynamic_cast<state<D, R>*>(&s.holder());
     if (typed) f(*typed);
     return typed != nullptr;
   };

@@ -38,6 +38,21 @@ void registry::enrol_missing(missing_word m) { missing_.push_back(std::move(m));
 void registry::enrol(std::string_view backend, const combination_words& c, summation_maker make) {
   summations_.push_back({std::string(backend), c, make});
 }
+void registry::enrol_wrapper(const backend_traits& t, const std::string& base, summation_wrapper wrap) {
+  const std::string name(t.name);
+  if (std::ranges::any_of(backends_, [&](const backend_entry& b) { return b.traits.name == name; }))
+    throw error("backend " + name + " is enrolled already");
+  const auto entry = std::ranges::find(backends_, base, [](const backend_entry& b) { return b.traits.name; });
+  if (entry == backends_.end()) throw error("backend " + name + " cannot wrap " + base + ", which is not enrolled");
+  std::vector<made> wrapped;
+  for (const made& m : summations_) {
+    if (m.backend != base) continue;
+    if (m.wrap) throw error("backend " + name + " cannot wrap " + base + ", which is a wrapper itself");
+    wrapped.push_back({name, m.what, m.make, wrap, base});
+  }
+  backends_.push_back({t, std::string(entry->unavailable)});
+  summations_.insert(summations_.end(), wrapped.begin(), wrapped.end());
+}
 void registry::enrol_reference(const combination_words& c, reference_maker make) { references_.push_back({c, make}); }
 
 std::vector<std::string> registry::interactions() const {
@@ -113,7 +128,11 @@ const auto& registry::find(const Entries& entries, const setup& s) const {
 
 std::unique_ptr<summation> registry::make_summation(const setup& s) const {
   find_backend(s.backend);
-  return find(summations_, s).make(s);
+  const made& found = find(summations_, s);
+  if (!found.wrap) return found.make(s);
+  setup inner = s;
+  inner.backend = found.base;
+  return found.wrap(found.make(inner), s);
 }
 
 std::unique_ptr<reference> registry::make_reference(const setup& s) const {

@@ -73,10 +73,15 @@ class registry {
 
   // For the enrolment.
   using summation_maker = std::unique_ptr<summation> (*)(const setup&);
+  /// Puts a summation around another; the setup's backend is the wrapper's own name.
+  using summation_wrapper = std::unique_ptr<summation> (*)(std::unique_ptr<summation>, const setup&);
   using reference_maker = std::unique_ptr<reference> (*)(const setup&);
   void enrol_backend(const backend_traits& t, std::string unavailable = {});
   void enrol_missing(missing_word m);
   void enrol(std::string_view backend, const combination_words& c, summation_maker make);
+  /// Enrols a backend that wraps `base`, an enrolled one, for every combination that `base` has. Throws pairsum::error
+  /// if there is no such base, if it is itself a wrapper, or if t.name is enrolled.
+  void enrol_wrapper(const backend_traits& t, const std::string& base, summation_wrapper wrap);
   void enrol_reference(const combination_words& c, reference_maker make);
 
  private:
@@ -89,6 +94,8 @@ class registry {
     std::string backend;
     combination what;
     summation_maker make;
+    summation_wrapper wrap = nullptr;
+    std::string base = {};  ///< the wrapped backend
   };
   struct oracle {
     combination what;

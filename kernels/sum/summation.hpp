@@ -57,6 +57,9 @@ class summation {
   virtual particle_table snapshot() const = 0;
   /// Particles that have left Omega since load().
   virtual std::size_t lost() const = 0;
+
+  /// The summation that holds the particles, for integrators: one that wraps another names that.
+  virtual summation& holder() { return *this; }
 };
 
 }  // namespace pairsum

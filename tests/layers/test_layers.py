@@ -28,6 +28,7 @@ ALLOWED = {  # folder: folders it may include, besides itself
     "harness/model": ["core", "sum", "harness/measure"],
     "harness/plan": ["core", "cases", "integrators", "sum", "harness/rows", "harness/environment"],
     "harness/verify": ["core", "particles", "cases", "sum", "harness/measure"],
+    "harness/self_test": ["core", "particles", "sum", "harness/measure"],
     "harness/run": ["core", "cases", "integrators", "sum", "harness/rows", "harness/plan", "harness/measure", "harness/verify",
                     "harness/stats", "harness/environment"],
     "harness/report": ["core", "harness/rows", "harness/stats"],
@@ -99,6 +100,7 @@ def test_the_checker_rejects():
     assert complaints("harness/cli/a.cpp", '#include "grid/hashed_grid.hpp"\n')
     assert complaints("harness/cli/a.cpp", '#include "backends/naive.hpp"\n')
     assert complaints("harness/gbench/a.cpp", '#include "backends/naive.hpp"\n')
+    assert complaints("harness/self_test/a.cpp", '#include "harness/verify/verifier.hpp"\n')
     assert complaints("harness/gbench/a.cpp", '#include "sum/block.hpp"\n')
     assert complaints("harness/new_folder/a.cpp", "")
     assert complaints("kernels/new_folder/a.hpp", "")

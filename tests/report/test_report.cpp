@@ -73,7 +73,7 @@ TEST_F(report, speedups_are_paired_and_name_their_base) {
   EXPECT_EQ(only(s["speedup"], {{"backend", "symmetric_tbb"}, {"threads", 1}})["speedup"], 1.0);
   const json few = only(s["speedup"], {{"backend", "symmetric_tbb"}, {"threads", 4}});
   EXPECT_NEAR(few["speedup"].get<double>(), 2.5, 1e-12);
-  EXPECT_TRUE(few["low"].is_null());
+  EXPECT_NEAR(few["low"].get<double>(), 2.5, 1e-12) << "three pairs suffice";
   EXPECT_TRUE(only(s["speedup"], {{"backend", "naive"}, {"M", 6}}).is_null());
 }
 

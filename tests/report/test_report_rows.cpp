@@ -51,7 +51,7 @@ TEST_F(report, void_rounds_do_not_count) {
   EXPECT_EQ(only(s["points"], {{"backend", "naive"}, {"M", 6}})["repetitions"], 6);
 }
 
-TEST_F(report, points_without_a_common_repetition_are_compared_by_medians) {
+TEST_F(report, points_without_a_common_repetition_are_compared_unpaired) {
   row_writer writer(rows_path());
   writer.write(example::environment());
   for (int repetition = 1; repetition <= 6; ++repetition) {
@@ -64,7 +64,7 @@ TEST_F(report, points_without_a_common_repetition_are_compared_by_medians) {
   const json s = make();
   ASSERT_EQ(s["algorithm_speedup"].size(), 1u);
   EXPECT_NEAR(s["algorithm_speedup"][0]["speedup"].get<double>(), 2, 1e-12);
-  EXPECT_TRUE(s["algorithm_speedup"][0]["low"].is_null());
+  EXPECT_LT(s["algorithm_speedup"][0]["low"].get<double>(), 1.7) << "the disturbance does not cancel";
   EXPECT_TRUE(has_caveat(s, "naive M=6 threads=1 and symmetric M=6 threads=1 share no repetition"));
 }
 

@@ -1,0 +1,98 @@
+#include "harness/run/launch.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "harness/measure/cpu_time.hpp"
+#include "harness/run/interrupt.hpp"
+#include "harness/run/worker.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+/// A file without a name that holds the order.
+int order_file(const order& o) {
+  const std::string text = order_json(o).dump();
+  const int file = ::memfd_create("pairsum-order", MFD_CLOEXEC);
+  if (file < 0 || ::write(file, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+    throw error(fmt::format("cannot hand an order to a process: {}", std::strerror(errno)));
+  ::lseek(file, 0, SEEK_SET);
+  return file;
+}
+
+[[noreturn]] void become(const std::string& program, const std::string& descriptor, int file, int store, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(126);  // it has died meanwhile
+  ::fcntl(file, F_SETFD, 0);
+  if (store >= 0) ::fcntl(store, F_SETFD, 0);
+  ::execl(program.c_str(), program.c_str(), "worker", descriptor.c_str(), static_cast<char*>(nullptr));
+  ::_exit(127);
+}
+
+departure wait_for(pid_t child) {
+  int status = 0;
+  rusage use{};
+  bool told = false;
+  while (::wait4(child, &status, 0, &use) < 0) {
+    if (errno != EINTR) throw error(fmt::format("cannot wait for a process: {}", std::strerror(errno)));
+    if (interrupted() && !told) ::kill(child, SIGTERM);
+    told = told || interrupted();
+  }
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  departure end;
+  end.cpu_s = seconds(use.ru_utime) + seconds(use.ru_stime);
+  if (WIFSIGNALED(status))
+    end.signal = WTERMSIG(status);
+  else
+    end.code = WEXITSTATUS(status);
+  return end;
+}
+
+}  // namespace
+
+std::filesystem::path this_program() {
+  std::error_code code;
+  const auto path = std::filesystem::read_symlink("/proc/self/exe", code);
+  if (code) throw error("cannot find out which program this is: " + code.message());
+  return path;
+}
+
+launcher in_a_process(const std::filesystem::path& program) {
+  if (::access(program.c_str(), X_OK) != 0 || std::filesystem::is_directory(program))
+    throw error(fmt::format("{} is no program that can be run", program.string()));
+  return [name = program.string()](const order& o) {
+    const int file = order_file(o);
+    const std::string descriptor = std::to_string(file);
+    const pid_t parent = ::getpid();
+    const pid_t child = ::fork();
+    if (child == 0) become(name, descriptor, file, o.store, parent);
+    ::close(file);
+    if (child < 0) throw error(fmt::format("cannot start a process: {}", std::strerror(errno)));
+    return wait_for(child);
+  };
+}
+
+launcher in_this_process(const registry& all) {
+  return [&all](const order& o) {
+    const double before = own_time();
+    departure end;
+    end.code = carry_out(o, all);
+    end.cpu_s = own_time() - before;
+    return end;
+  };
+}
+
+}  // namespace pairsum::harness

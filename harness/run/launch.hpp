@@ -1,0 +1,23 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+
+#include "harness/run/order.hpp"
+#include "sum/registry.hpp"
+
+namespace pairsum::harness {
+
+/// Has an order carried out and waits for its end.
+using launcher = std::function<departure(const order&)>;
+
+/// In a fresh process of this program or of another build of it: address space, thread pools and memory are new. The
+/// process dies with this one; SIGINT and SIGTERM are handed on to it. Throws pairsum::error if `program` cannot be run.
+launcher in_a_process(const std::filesystem::path& program);
+
+/// In this process, with backends of the caller's choice.
+launcher in_this_process(const registry& all);
+
+/// The path of the running program.
+std::filesystem::path this_program();
+
+}  // namespace pairsum::harness

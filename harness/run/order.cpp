@@ -1,0 +1,50 @@
+#include "harness/run/order.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+constexpr const char* order_schema = "pairsum.order/1";
+constexpr const char* errands[] = {"peaks", "verify", "measure"};
+
+}  // namespace
+
+nlohmann::json order_json(const order& o) {
+  return {{"schema", order_schema},
+          {"what", errands[static_cast<int>(o.what)]},
+          {"plan", plan_json(o.plan)},
+          {"part", o.part},
+          {"round", o.round},
+          {"out", o.out},
+          {"binding", o.binding},
+          {"store", o.store},
+          {"standing",
+           {{"elapsed_s", o.where.elapsed_s},
+            {"done_s", o.where.done_s},
+            {"this_s", o.where.this_s},
+            {"all_s", o.where.all_s},
+            {"text", o.where.text}}}};
+}
+
+order parse_order(const nlohmann::json& j) {
+  if (!j.is_object() || j.value("schema", "") != order_schema)
+    throw error(std::string("a worker takes orders of schema \"") + order_schema +
+                "\" from the program that conducts the study, which is another version");
+  order o;
+  for (int k = 0; k < 3; ++k)
+    if (j.at("what") == errands[k]) o.what = static_cast<errand>(k);
+  o.plan = parse_plan(j.at("plan"), 1);
+  o.part = j.at("part");
+  o.round = j.at("round");
+  o.out = j.at("out");
+  o.binding = j.at("binding");
+  o.store = j.at("store");
+  const auto& where = j.at("standing");
+  o.where = {where.at("elapsed_s"), where.at("done_s"), where.at("this_s"), where.at("all_s"), where.at("text")};
+  return o;
+}
+
+}  // namespace pairsum::harness

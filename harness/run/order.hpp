@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "harness/plan/study.hpp"
+
+namespace pairsum::harness {
+
+/// What a process of a study is for.
+enum class errand {
+  peaks,    ///< measure bandwidth and peak for every number of threads and precision of the plan
+  verify,   ///< make the references, verify every point of a part once, keep verdicts for those who come later
+  measure,  ///< one round of a part
+};
+
+/// Where a study stands, for the line on the terminal; in estimated seconds of work.
+struct standing {
+  double elapsed_s = 0, done_s = 0, this_s = 0, all_s = 1;
+  std::string text;  ///< like "round 3 of parallel_rest (half-width 2.3 %, goal 2 %)"
+};
+
+/// What the process that conducts a study tells the one that carries out a step of it.
+struct order {
+  errand what = errand::measure;
+  study_plan plan;
+  std::size_t part = 0;  ///< index into the plan's parts
+  int round = 1;
+  std::string out;  ///< rows file
+  std::string binding = "cores_first";
+  int store = -1;  ///< descriptor of the shared store; -1: none
+  standing where;
+};
+
+nlohmann::json order_json(const order& o);
+/// Throws pairsum::error for an order that another version wrote.
+order parse_order(const nlohmann::json& json);
+
+/// How a process that carries out an order ends.
+struct departure {
+  int code = 0;      ///< exit code: 0 done, 1 done but a point failed its verification, 2 bad input, 130 interrupted
+  int signal = 0;    ///< that ended it, if not 0
+  double cpu_s = 0;  ///< processor time it used
+};
+
+}  // namespace pairsum::harness

@@ -1,0 +1,242 @@
+#include "harness/run/worker.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <set>
+
+#include "harness/environment/environment.hpp"
+#include "harness/environment/machine.hpp"
+#include "harness/measure/memory.hpp"
+#include "harness/measure/worker_team.hpp"
+#include "harness/model/peaks.hpp"
+#include "harness/rows/reader.hpp"
+#include "harness/rows/writer.hpp"
+#include "harness/run/interrupt.hpp"
+#include "harness/run/progress.hpp"
+#include "harness/run/results_table.hpp"
+#include "harness/run/world.hpp"
+#include "harness/self_test/self_test.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+std::string label(const point& p) {
+  return fmt::format("{} dx={} {} M={} threads={}", p.backend, p.dx, p.state, p.M, p.threads);
+}
+
+std::string place(const point& p) {
+  return fmt::format("dx={} {} {} {} {}", p.dx, p.state, p.precision, p.interaction, p.smoothing);
+}
+
+/// A part's points with the worlds they live in.
+class measured_part {
+ public:
+  measured_part(const order& o, const measuring& with) : request_(o.plan.parts[o.part].request) {
+    std::map<std::pair<double, std::string>, std::shared_ptr<const world_particles>> particles;
+    for (const world_plan& points : expand(request_, with.all)) {
+      auto& shared = particles[{points.front().dx, points.front().state}];
+      if (!shared) shared = std::make_shared<world_particles>(request_, points.front());
+      worlds_.push_back(std::make_unique<world>(with, request_, points.front(), shared));
+      for (point p : points) {
+        worlds_.back()->complete(p);
+        points_.push_back({p, worlds_.size() - 1});
+      }
+    }
+  }
+
+  struct place_of {
+    point what;
+    std::size_t where;
+  };
+
+  const run_request& request() const { return request_; }
+  const std::vector<place_of>& points() const { return points_; }
+  std::vector<std::unique_ptr<world>>& worlds() { return worlds_; }
+  world& world_of(const place_of& p) { return *worlds_[p.where]; }
+
+ private:
+  run_request request_;
+  std::vector<std::unique_ptr<world>> worlds_;
+  std::vector<place_of> points_;
+};
+
+/// One order under way.
+class errand_run {
+ public:
+  errand_run(const order& o, const registry& all)
+      : order_(o),
+        binding_(o.binding),
+        environment_(describe_environment(o.plan.study, binding_.description(), hardware_.description())),
+        store_(o.store >= 0 ? std::make_unique<shared_store>(o.store) : nullptr),
+        with_{all, binding_, hardware_, store_.get(), environment_.environment},
+        progress_(o.where.all_s, o.plan.budget_s, o.where.elapsed_s) {}
+
+  int verify() {
+    measured_part part(order_, with_);
+    const double unit = 1.0 / static_cast<double>(part.points().size() + 2 * part.worlds().size());
+    for (const auto& w : part.worlds()) {
+      if (interrupted()) return 130;
+      show("making the reference");
+      w->make_reference();
+      advance(2 * unit);
+      if (w->dropped() > 0) note(fmt::format("{} particles outside Omega were dropped", w->dropped()));
+    }
+    for (const auto& p : part.points()) {
+      if (interrupted()) return 130;
+      show("verifying " + label(p.what));
+      const world::result r = part.world_of(p).measure(p.what);
+      if (r.interrupted) return 130;
+      if (!r.error.empty()) note(fmt::format("{} ({}) FAILED its verification: {}", label(p.what), words_of(p.what), r.error));
+      if (r.lost > 0) note(fmt::format("{} ({}): {} particles left Omega and are no longer summed", label(p.what), words_of(p.what), r.lost));
+      advance(unit);
+    }
+    for (const auto& w : part.worlds()) w->remember();
+    return 0;
+  }
+
+  int measure() {
+    measured_part part(order_, with_);
+    for (const auto& w : part.worlds()) w->make_reference();
+    open();
+    warm_up(part);
+    const int repetitions = part.request().repetitions;
+    const double unit = 1.0 / static_cast<double>(part.points().size() * static_cast<std::size_t>(repetitions));
+    for (int repetition = 1; repetition <= repetitions; ++repetition) {
+      const auto sequence = shuffled_order(part.points().size(), part.request().seed, order_.round, repetition);
+      for (std::size_t slot = 0; slot < sequence.size(); ++slot) {
+        if (interrupted()) return 130;
+        const auto& p = part.points()[sequence[slot]];
+        const world::result r = part.world_of(p).measure(p.what);
+        if (r.interrupted) return 130;
+        write(p.what, r, static_cast<int>(slot) + 1, repetition);
+        advance(unit);
+        show(last_);
+      }
+    }
+    for (const auto& w : part.worlds()) w->remember();  // verdicts on bits that were new
+    return failed_ ? 1 : 0;
+  }
+
+  int peaks() {
+    std::set<std::pair<int, std::string>> wanted;
+    for (const part_plan& part : order_.plan.parts)
+      for (const world_plan& points : expand(part.request, with_.all))
+        for (const point& p : points) wanted.emplace(p.threads, p.precision);
+    open();
+    std::uint64_t cache = 0;
+    for (const auto& [level, bytes] : environment_.caches) cache = std::max(cache, bytes);
+    for (const auto& [threads, precision] : wanted) {
+      if (interrupted()) return 130;
+      show(fmt::format("measuring the peaks of {} threads, {}", threads, precision));
+      const worker_team workers(runtime::omp, threads, &binding_);
+      const peak_rates rates = measure_peaks(precision, workers.get(), {.last_level_cache_bytes = cache});
+      writer_->write(peak_row{order_.plan.study, utc_now(), environment_.environment, threads, precision,
+                              rates.bandwidth_bytes_per_s, rates.flops_per_s});
+      advance(1.0 / static_cast<double>(wanted.size()));
+    }
+    return 0;
+  }
+
+ private:
+  /// One step of every backend with the most threads it gets, in every world: pages, pools and clocks are awake after
+  /// it, and nothing of it is kept.
+  void warm_up(measured_part& part) {
+    show("warming up");
+    std::map<std::pair<std::size_t, std::string>, const measured_part::place_of*> most;
+    for (const auto& p : part.points()) {
+      auto& at = most[{p.where, p.what.backend}];
+      if (at == nullptr || at->what.threads < p.what.threads) at = &p;
+    }
+    for (const auto& [key, p] : most)
+      if (!interrupted()) part.world_of(*p).measure(p->what, 1);
+  }
+
+  /// The rows file, once the input has proved right; with the environment row if it is not there.
+  void open() {
+    writer_ = std::make_unique<row_writer>(order_.out);
+    if (!writer_->knows(environment_.environment)) writer_->write(environment_);
+  }
+
+  sample blank(const point& p, int slot, int repetition) const {
+    sample s;
+    s.study = order_.plan.study;
+    s.part = order_.plan.parts[order_.part].request.part;
+    s.round = order_.round;
+    s.slot = slot;
+    s.repetition = repetition;
+    s.seed = order_.plan.parts[order_.part].request.seed;
+    s.utc = utc_now();
+    s.environment = environment_.environment;
+    s.point = p;
+    return s;
+  }
+
+  void write(const point& p, const world::result& r, int slot, int repetition) {
+    sample s = blank(p, slot, repetition);
+    if (!r.error.empty()) {  // a backend that is wrong gets no time
+      failed_ = true;
+      s.error = r.error;
+      writer_->write(s);
+      return;
+    }
+    double sum = 0;
+    for (std::size_t k = 0; k < r.steps.size(); ++k) {
+      const step_result& step = r.steps[k];
+      s.step = static_cast<int>(k) + 1;
+      s.phases = step.times;
+      s.threads_busy_s = step.threads_busy_s;
+      s.barrier_wait_s = step.barrier_wait_s;
+      s.counters = step.counted;
+      s.work = k == 0 ? r.work : std::nullopt;
+      s.peak_rss_bytes = r.peak_rss_bytes;
+      s.verify = {step.checked.max_rel_err, step.checked.bound, fmt::format("{:016x}", step.checked.fingerprint)};
+      writer_->write(s);
+      sum += step.times.sum_s.value_or(0);
+    }
+    last_ = fmt::format("{}: {:.4g} ms", label(p), 1e3 * sum / static_cast<double>(r.steps.size()));
+  }
+
+  void advance(double share) { done_ += share; }
+  void show(const std::string& what) {
+    progress_.show(order_.where.done_s + done_ * order_.where.this_s, order_.where.text + ", " + what);
+  }
+  void note(const std::string& line) {
+    progress_.clear();
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  }
+
+  const order& order_;
+  counters hardware_;  // before any thread
+  thread_binding binding_;
+  environment_row environment_;
+  std::unique_ptr<shared_store> store_;
+  measuring with_;
+  std::unique_ptr<row_writer> writer_;
+  progress progress_;
+  double done_ = 0;
+  std::string last_;
+  bool failed_ = false;
+};
+
+}  // namespace
+
+int carry_out(const order& o, const registry& all) {
+  keep_freed_memory();
+  errand_run run(o, all);
+  switch (o.what) {
+    case errand::peaks: return run.peaks();
+    case errand::verify: return run.verify();
+    default: return run.measure();
+  }
+}
+
+const registry& registry_of(const study_plan& plan) {
+  if (!plan.self_test) return registry::instance();
+  static const registry extended = with_self_test(registry::instance());
+  return extended;
+}
+
+}  // namespace pairsum::harness
