@@ -53,7 +53,7 @@ inline void add_student_t(ratio_estimate& r, double log_ratio, double standard_e
 
 /// The ratio of values that were measured together: base[i] and other[i] belong to the same round, so that what
 /// disturbs both cancels. The estimate is exp(mean(log(base[i] / other[i]))), the geometric mean (Fleming & Wallace,
-/// Comm. ACM 29 (1986) 218: the only mean of ratios that does not depend on which is the base); interval and p-value
+/// Comm. ACM 29 (1986) 218), which does not depend on which of the two is the base; interval and p-value
 /// are Student's t on the log ratios, n - 1 degrees of freedom, at `level`, and need 3 pairs. Claims: exact if the log
 /// ratios are independent and normal; nearly so if their distribution is symmetric; the interval is too narrow if they
 /// are few and skewed (tests/stats/test_coverage.cpp has figures). Throws pairsum::error for spans that are empty or of
