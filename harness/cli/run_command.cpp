@@ -1,44 +1,124 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/environment/machine.hpp"
-#include "harness/plan/words.hpp"
-#include "harness/run/runner.hpp"
+#include "harness/plan/levels.hpp"
+#include "harness/plan/study.hpp"
+#include "harness/run/dry_run.hpp"
+#include "harness/run/study.hpp"
+#include "harness/run/worker.hpp"
 
 namespace pairsum::harness {
 namespace {
 
-struct run_options {
-  run_request request;
-  std::string dx = "0.02", state = "rest", backend = "naive_omp,symmetric_omp", M = "6,7", threads = "all",
-              order = "lattice", precision = "double", interaction = "ferrari09", smoothing = "wendland_c2",
-              integrator = "euler";
-  std::string out, results = "results";
-  bool out_given = false;
+struct level_option {
+  const char *key, *standard, *what;
 };
 
-int start(const run_options& o) {
-  run_request r = o.request;
-  r.dx = parse_numbers("--dx", o.dx);
-  r.states = parse_words("--state", o.state);
-  r.backends = parse_words("--backend", o.backend);
-  r.M = parse_counts("--M", o.M, 0);
-  r.threads = parse_counts("--threads", o.threads, usable_cores());
-  r.orders = parse_words("--order", o.order);
-  r.precisions = parse_words("--precision", o.precision);
-  r.interactions = parse_words("--interaction", o.interaction);
-  r.smoothings = parse_words("--smoothing", o.smoothing);
-  r.integrators = parse_words("--integrator", o.integrator);
-  check_request(r);
-  if (o.out_given && o.out.empty()) throw error("--out takes the name of a file, not \"\"");
-  const std::filesystem::path path =
-      o.out.empty() ? default_rows_path(o.results, r.study) : std::filesystem::path(o.out);
-  const int code = run(r, path);
-  fmt::print("rows: {}\n", path.string());
+/// The factors and numbers of a run without a plan, with their defaults.
+constexpr level_option level_options[] = {
+    {"case", "dam_break", "initial condition (pairsum list)"},
+    {"dx", "0.02", "particle spacing in m, a list; 0.00594 is the talk's 2,014,966 particles"},
+    {"state", "rest", "rest, perturbed, or both"},
+    {"backend", "naive_omp,symmetric_omp", "backends, a list (pairsum list)"},
+    {"M", "6,7", "hash sizes, like 6,7 or 5..9: the grid is folded to 2^M cells an axis"},
+    {"threads", "all", "numbers of threads; all: 1, 2, 4, ... and every core; cores: every core alone"},
+    {"granularity", "default",
+     "how loops are shared out: dynamic:32, static:0, guided:8 (OpenMP), auto:32, simple:8 (oneTBB)"},
+    {"dim", "3", "dimension"},
+    {"H", "0", "support radius in m (0: 2 dx)"},
+    {"precision", "double", "working precisions, a list"},
+    {"interaction", "ferrari09", "pair interactions, a list"},
+    {"smoothing", "wendland_c2", "smoothing kernels, a list"},
+    {"integrator", "euler", "time stepping, a list"},
+    {"dt", "1e-5", "time step in s"},
+    {"grid", "hashed_grid", "grid"},
+    {"order", "lattice", "orders of memory at the start, a list: lattice, shuffled, morton"},
+    {"outside", "error", "particles outside Omega: error or drop"},
+    {"steps", "5", "time steps per repetition"},
+    {"repetitions", "1", "how often a round measures each point"},
+    {"seed", "1", "of the perturbation, of random places and of the order of measuring"},
+};
+
+struct run_options {
+  std::string plan, study = "run", out, results = "results", binding = "cores_first";
+  std::map<std::string, std::string> levels;
+  std::vector<std::string> programs;
+  int rounds = 6;
+  double budget_s = 0, half_width = 0;
+  bool fresh = false, dry_run = false, show_plan = false, peaks = false;
+};
+
+/// What was given beside the defaults, by option name without dashes.
+using given_options = std::map<std::string, bool>;
+
+study_plan plan_from_options(const run_options& o) {
+  study_plan plan;
+  plan.study = o.study;
+  plan.title = "run";
+  plan.peaks = o.peaks;
+  part_plan part;
+  part.request.study = o.study;
+  for (const auto& [key, text] : o.levels) read_level(part.request, key, text, usable_cores(), "--" + key);
+  plan.parts.push_back(part);
+  return plan;
+}
+
+study_plan plan_of(const run_options& o, const given_options& given) {
+  if (o.plan.empty()) return plan_from_options(o);
+  for (const level_option& level : level_options)
+    if (given.at(level.key) && std::string(level.key) != "seed")
+      throw error(fmt::format("--{} is said by the plan {}; --show-plan prints it, for a plan file of your own",
+                              level.key, o.plan));
+  if (given.at("study")) throw error("--study is said by the plan " + o.plan);
+  study_plan plan = parse_plan(load_plan(o.plan), usable_cores());
+  if (given.at("seed"))
+    for (part_plan& p : plan.parts) read_level(p.request, "seed", o.levels.at("seed"), 0, "--seed");
+  return plan;
+}
+
+int start(const run_options& o, const given_options& given) {
+  study_plan plan = plan_of(o, given);
+  if (given.at("budget") && !(o.budget_s >= 0))
+    throw error(fmt::format("budget must be at least 0, is {}", o.budget_s));
+  if (given.at("budget")) plan.budget_s = o.budget_s;
+  for (part_plan& p : plan.parts) {
+    if (o.plan.empty() || given.at("rounds")) p.least_rounds = p.most_rounds = o.rounds;
+    if (given.at("half-width")) p.half_width = o.half_width;
+    if (p.least_rounds < 1) throw error(fmt::format("rounds must be at least 1, is {}", p.least_rounds));
+    if (!(p.half_width >= 0)) throw error(fmt::format("half-width must be at least 0, is {}", p.half_width));
+  }
+  if (o.show_plan) {
+    fmt::print("{}\n", plan_json(plan).dump(2));
+    return 0;
+  }
+  const registry& all = registry_of(plan);
+  check_plan(plan, all);
+  if (o.dry_run) {
+    fmt::print("{}", dry_run(plan, all));
+    return 0;
+  }
+  if (plan.builds != static_cast<int>(o.programs.size()) + 1)
+    throw error(fmt::format("the plan compares {} builds: name {} with --program, {} are named", plan.builds,
+                            plan.builds == 2 ? "the other program" : fmt::format("{} programs", plan.builds - 1),
+                            o.programs.size()));
+  if (given.at("out") && o.out.empty()) throw error("--out takes the name of a file, not \"\"");
+  study_options options;
+  options.binding = o.binding;
+  options.out = o.out.empty() ? rows_path(o.results, plan, o.fresh || o.plan.empty()) : std::filesystem::path(o.out);
+  if (o.fresh && std::filesystem::exists(options.out))
+    throw error(fmt::format("--fresh makes a new file, but {} is there", options.out.string()));
+  options.builds.push_back(in_a_process(this_program()));
+  for (const std::string& program : o.programs) options.builds.push_back(in_a_process(program));
+  const int code = conduct(plan, options, all);
+  fmt::print("rows: {}\n", options.out.string());
   return code;
 }
 
@@ -47,48 +127,41 @@ int start(const run_options& o) {
 void add_run_command(CLI::App& app, action& chosen) {
   CLI::App* const command = app.add_subcommand(
       "run",
-      "Times backends x M x threads on a case. Every step is verified before its time is written; points are\n"
-      "interleaved in a seeded order; one row of JSON per timed step is appended to the rows file.");
+      "Carries out a study: a plan that comes with the program (pairsum list), a plan file, or the points that "
+      "options\n"
+      "name. Every round is a fresh process with pinned threads, its points interleaved in a seeded order; every step "
+      "is\n"
+      "verified before its time is written. A study that was cut goes on where it was when it is started again.");
   const auto o = std::make_shared<run_options>();
-  run_request& r = o->request;
-  command->add_option("--study", r.study, "name of the study, a folder under --results")->capture_default_str();
-  command->add_option("--case", r.case_name, "initial condition (pairsum list)")->capture_default_str();
-  command->add_option("--dx", o->dx, "particle spacing in m, a list; 0.00594 is the talk's 2,014,966 particles")
+  command->add_option("plan", o->plan, "name of a plan, or a .json file; without: the options below");
+  for (const level_option& level : level_options)
+    command->add_option(std::string("--") + level.key, o->levels[level.key] = level.standard, level.what)
+        ->capture_default_str();
+  command->add_option("--study", o->study, "name of the study, a folder under --results")->capture_default_str();
+  command->add_option("--rounds", o->rounds, "fresh processes that measure all points; intervals need at least 6")
       ->capture_default_str();
-  command->add_option("--state", o->state, "rest, perturbed, or both")->capture_default_str();
-  command->add_option("--backend", o->backend, "backends, a list (pairsum list)")->capture_default_str();
-  command->add_option("--M", o->M, "hash sizes, like 6,7 or 5..9: the grid is folded to 2^M cells an axis")
+  command->add_option("--half-width", o->half_width,
+                      "stop a part when every interval's half-width is below this share of its median (0: never)");
+  command->add_option("--budget", o->budget_s, "seconds for everything (0: no limit)");
+  command->add_option("--binding", o->binding, "cores_first: pins threads, one on every core first; none")
       ->capture_default_str();
-  command->add_option("--threads", o->threads, "numbers of threads, or all: 1, 2, 4, ... and every core")
-      ->capture_default_str();
-  command->add_option("--steps", r.steps, "time steps per repetition")->capture_default_str();
-  command->add_option("--repetitions", r.repetitions, "repetitions; intervals need at least 6")->capture_default_str();
-  command
-      ->add_option("--budget", r.budget_s,
-                   "stop after the last repetition that fits into so many seconds (0: no limit)")
-      ->capture_default_str();
-  command->add_option("--dim", r.dim, "dimension")->capture_default_str();
-  command->add_option("--H", r.H, "support radius in m (0: 2 dx)")->capture_default_str();
-  command->add_option("--precision", o->precision, "working precisions, a list")->capture_default_str();
-  command->add_option("--interaction", o->interaction, "pair interactions, a list")->capture_default_str();
-  command->add_option("--smoothing", o->smoothing, "smoothing kernels, a list")->capture_default_str();
-  command->add_option("--integrator", o->integrator, "time stepping, a list")->capture_default_str();
-  command->add_option("--dt", r.dt, "time step in s")->capture_default_str();
-  command->add_option("--grid", r.grid, "grid")->capture_default_str();
-  command->add_option("--order", o->order, "orders of memory at the start, a list: lattice, shuffled, morton")
-      ->capture_default_str();
-  command->add_option("--outside", r.outside, "particles outside Omega: error or drop")->capture_default_str();
-  command->add_option("--seed", r.seed, "of the perturbation, of random places and of the order of measuring")
-      ->capture_default_str();
+  command->add_option("--program", o->programs, "another build of this program, for plans that compare builds");
+  command->add_flag("--peaks", o->peaks, "measure the machine's bandwidth and peak first (plans say so themselves)");
+  command->add_flag("--dry-run", o->dry_run, "print the design and about how long it takes; measure nothing");
+  command->add_flag("--show-plan", o->show_plan, "print the plan as JSON; measure nothing");
+  command->add_flag("--fresh", o->fresh, "start over into a new file instead of resuming");
   command->add_option("--out", o->out,
-                      "rows file; appended to if it exists (default: RESULTS/STUDY/HOST-UTC-GIT.jsonl)");
+                      "rows file; appended to or resumed if it exists (default: RESULTS/STUDY/HOST-UTC-GIT.jsonl)");
   command->add_option("--results", o->results, "folder of the default rows file")->capture_default_str();
   command->footer(
-      "Example, the talk's headline:\n"
-      "  pairsum run --study talk --dx 0.00594 --backend naive_omp,symmetric_omp --M 6,7 --threads all --steps 5");
+      "Examples:\n"
+      "  pairsum run quick                 a small version of everything, about a minute\n"
+      "  pairsum run talk --dry-run        what the talk's study measures, and how long it takes\n"
+      "  pairsum run --dx 0.012 --backend naive_omp,symmetric_omp --M 6,7 --threads all");
   command->callback([&chosen, o, command] {
-    o->out_given = command->count("--out") > 0;
-    chosen = [o] { return start(*o); };
+    given_options given;
+    for (const CLI::Option* option : command->get_options()) given[option->get_single_name()] = option->count() > 0;
+    chosen = [o, given] { return start(*o, given); };
   });
 }
 

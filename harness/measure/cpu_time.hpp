@@ -14,8 +14,8 @@ std::optional<machine_time> machine_time_now();
 
 /// Which share of the machine's time between two readings went to others than those who used `own_s` seconds of it;
 /// empty if a reading is, or if they are the same.
-std::optional<double> share_of_others(const std::optional<machine_time>& before, const std::optional<machine_time>& after,
-                                      double own_s);
+std::optional<double> share_of_others(const std::optional<machine_time>& before,
+                                      const std::optional<machine_time>& after, double own_s);
 
 /// Processor time this process has used, its threads included [s].
 double own_time();

@@ -95,10 +95,10 @@ const std::map<std::string, level>& levels() {
 
 }  // namespace
 
-bool read_level(run_request& r, const std::string& key, const json& value, int cores) {
+bool read_level(run_request& r, const std::string& key, const json& value, int cores, const std::string& called) {
   const auto at = levels().find(key);
   if (at == levels().end()) return false;
-  at->second.read(r, key, joined(key, value), cores);
+  at->second.read(r, called.empty() ? fmt::format("the plan's \"{}\"", key) : called, joined(key, value), cores);
   return true;
 }
 

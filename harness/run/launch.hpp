@@ -11,7 +11,8 @@ namespace pairsum::harness {
 using launcher = std::function<departure(const order&)>;
 
 /// In a fresh process of this program or of another build of it: address space, thread pools and memory are new. The
-/// process dies with this one; SIGINT and SIGTERM are handed on to it. Throws pairsum::error if `program` cannot be run.
+/// process dies with this one; SIGINT and SIGTERM are handed on to it. Throws pairsum::error if `program` cannot be
+/// run.
 launcher in_a_process(const std::filesystem::path& program);
 
 /// In this process, with backends of the caller's choice.

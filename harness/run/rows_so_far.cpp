@@ -18,6 +18,7 @@ rows_so_far::rows_so_far(const std::filesystem::path& path, const study_plan& pl
   std::string ended;
   for (const end_row& e : rows_.ends)
     if (e.study == study_ && e.plan == hash) ended = std::max(ended, e.utc);
+  ended_ = !ended.empty();
   for (const round_row& r : rows_.finished_rounds()) {
     if (r.study != study_ || r.plan != hash) continue;
     replicates_[r.part] = std::max(replicates_[r.part], r.replicate);
@@ -35,8 +36,6 @@ int rows_so_far::next_replicate(const std::string& part) const {
   const auto at = replicates_.find(part);
   return at == replicates_.end() ? 1 : at->second + 1;
 }
-
-bool rows_so_far::open() const { return !rounds_.empty(); }
 
 std::vector<sample> rows_so_far::samples() const {
   std::set<int> wanted;

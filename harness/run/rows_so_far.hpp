@@ -20,8 +20,10 @@ class rows_so_far {
   /// The next round's number, and the next replicate of a part.
   int next_round() const { return last_round_ + 1; }
   int next_replicate(const std::string& part) const;
-  /// Is there anything of this plan that was not ended?
-  bool open() const;
+  /// Are there finished rounds since the last end?
+  bool open() const { return !rounds_.empty(); }
+  /// Was the plan begun, even if no round was finished, and not carried out to its end?
+  bool unended() const { return !rows_.environments.empty() && (open() || !ended_); }
 
   /// The largest half-width of the intervals for the medians of the summation times over the rounds of a part, as a
   /// share of the median; empty while there are too few rounds for an interval.
@@ -37,6 +39,7 @@ class rows_so_far {
   std::map<std::string, std::vector<round_row>> rounds_;
   std::map<std::string, int> replicates_;  ///< the largest so far, those before the last end included
   int last_round_ = 0;
+  bool ended_ = false;
 };
 
 }  // namespace pairsum::harness

@@ -26,10 +26,6 @@ std::string label(const point& p) {
   return fmt::format("{} dx={} {} M={} threads={}", p.backend, p.dx, p.state, p.M, p.threads);
 }
 
-std::string place(const point& p) {
-  return fmt::format("dx={} {} {} {} {}", p.dx, p.state, p.precision, p.interaction, p.smoothing);
-}
-
 /// A part's points with the worlds they live in.
 class measured_part {
  public:
@@ -88,8 +84,11 @@ class errand_run {
       show("verifying " + label(p.what));
       const world::result r = part.world_of(p).measure(p.what);
       if (r.interrupted) return 130;
-      if (!r.error.empty()) note(fmt::format("{} ({}) FAILED its verification: {}", label(p.what), words_of(p.what), r.error));
-      if (r.lost > 0) note(fmt::format("{} ({}): {} particles left Omega and are no longer summed", label(p.what), words_of(p.what), r.lost));
+      if (!r.error.empty())
+        note(fmt::format("{} ({}) FAILED its verification: {}", label(p.what), words_of(p.what), r.error));
+      if (r.lost > 0)
+        note(fmt::format("{} ({}): {} particles left Omega and are no longer summed", label(p.what), words_of(p.what),
+                         r.lost));
       advance(unit);
     }
     for (const auto& w : part.worlds()) w->remember();
@@ -227,9 +226,12 @@ int carry_out(const order& o, const registry& all) {
   keep_freed_memory();
   errand_run run(o, all);
   switch (o.what) {
-    case errand::peaks: return run.peaks();
-    case errand::verify: return run.verify();
-    default: return run.measure();
+    case errand::peaks:
+      return run.peaks();
+    case errand::verify:
+      return run.verify();
+    default:
+      return run.measure();
   }
 }
 

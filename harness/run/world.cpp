@@ -32,8 +32,8 @@ world::world(const measuring& with, const run_request& r, const point& any,
 
 /// Everything that particles, reference and trajectory depend on, and the build.
 std::string world::key() const {
-  return nlohmann::json{with_.build,      request_.case_name, request_.dim,       request_.H,        request_.outside,
-                        request_.seed,    request_.dt,        any_.dx,            any_.state,        any_.precision,
+  return nlohmann::json{with_.build,      request_.case_name, request_.dim, request_.H, request_.outside,
+                        request_.seed,    request_.dt,        any_.dx,      any_.state, any_.precision,
                         any_.interaction, any_.smoothing,     any_.grid}
       .dump();
 }
@@ -89,8 +89,7 @@ work_row world::work_of(const point& p, summation& s) {
                   w.pairs_fluid_fluid,
                   w.pairs_fluid_boundary,
                   {}};
-    if (unfolded_)
-      at->second.pairs_tested_unfolded = s.traits().symmetric ? unfolded_->symmetric : unfolded_->gather;
+    if (unfolded_) at->second.pairs_tested_unfolded = s.traits().symmetric ? unfolded_->symmetric : unfolded_->gather;
   }
   return at->second;
 }

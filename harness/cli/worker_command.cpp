@@ -1,0 +1,45 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "harness/cli/commands.hpp"
+#include "harness/run/interrupt.hpp"
+#include "harness/run/worker.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+std::string read_all(int descriptor) {
+  std::string text;
+  char part[65536];
+  for (ssize_t n = 0; (n = ::pread(descriptor, part, sizeof part, static_cast<off_t>(text.size()))) > 0;)
+    text.append(part, static_cast<std::size_t>(n));
+  return text;
+}
+
+int work(int descriptor) {
+  note_interrupts();
+  const std::string text = read_all(descriptor);
+  order o;
+  try {
+    o = parse_order(nlohmann::json::parse(text));
+  } catch (const nlohmann::json::exception&) {
+    throw error("worker takes the descriptor of an order from the program that conducts a study; use pairsum run");
+  }
+  return carry_out(o, registry_of(o.plan));
+}
+
+}  // namespace
+
+void add_worker_command(CLI::App& app, action& chosen) {
+  CLI::App* const command = app.add_subcommand("worker", "Carries out a step of a study; pairsum run starts it");
+  command->group("");  // not for people
+  const auto descriptor = std::make_shared<int>(-1);
+  command->add_option("order", *descriptor, "file descriptor of the order")->required();
+  command->callback([&chosen, descriptor] { chosen = [descriptor] { return work(*descriptor); }; });
+}
+
+}  // namespace pairsum::harness

@@ -1,0 +1,76 @@
+#include "harness/run/estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "cases/case.hpp"
+#include "core/workers.hpp"
+#include "harness/environment/machine.hpp"
+#include "harness/measure/stopwatch.hpp"
+#include "sum/setup_of.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+/// Particles of a case at a spacing, extrapolated from a coarser one where making it would take long.
+double particles_of(const run_request& r, double dx) {
+  const double coarse = std::max(dx, 0.04);
+  const double n =
+      static_cast<double>(make_case(r.case_name, {r.dim, coarse, r.H, r.states.front(), r.seed}).particles.size());
+  return n * std::pow(coarse / dx, r.dim);
+}
+
+}  // namespace
+
+estimate::estimate(const study_plan& plan, const registry& all) : budget_s_(plan.budget_s) {
+  const int cores = usable_cores();
+  std::set<std::pair<int, std::string>> peaks;
+  for (const part_plan& part : plan.parts) {
+    part_estimate e;
+    e.rounds = part.half_width > 0 ? part.least_rounds : part.most_rounds;
+    std::map<double, double> particles;
+    for (const world_plan& points : expand(part.request, all))
+      for (const point& p : points) {
+        auto [at, is_new] = particles.try_emplace(p.dx);
+        if (is_new) at->second = particles_of(part.request, p.dx);
+        e.work += at->second * part.request.steps * part.request.repetitions * plan.builds / std::min(p.threads, cores);
+        ++e.points;
+        peaks.emplace(p.threads, p.precision);
+      }
+    parts_.push_back(e);
+  }
+  if (plan.peaks) peaks_s_ = 1.2 * static_cast<double>(peaks.size());
+}
+
+void estimate::calibrate(const registry& all) {
+  const initial_condition c = make_case("dam_break", {3, 0.03, 0, "rest", 1});
+  setup s = setup_of(c);
+  s.backend = all.backends().front().traits.name;
+  const auto sum = all.make_summation(s);
+  const workers w(sum->traits().threads, 1);
+  sum->load(c.particles, {});
+  sum->evaluate(w.get());
+  stopwatch clock;
+  sum->evaluate(w.get());
+  rate_ = clock.seconds() / static_cast<double>(c.particles.size());
+}
+
+double estimate::all_s() const {
+  double all = peaks_s_;
+  for (std::size_t k = 0; k < parts_.size(); ++k) all += verify_s(k) + parts_[k].rounds * round_s(k);
+  return budget_s_ > 0 ? std::min(all, budget_s_) : all;
+}
+
+void estimate::verified(std::size_t part, double seconds) {
+  parts_[part].verify_s = seconds;
+  rate_ = std::max(1e-9, (seconds / verify_factor - 0.3) / parts_[part].work);
+}
+
+void estimate::measured(std::size_t part, double seconds) {
+  parts_[part].round_s = seconds;
+  rate_ = std::max(1e-9, (seconds / round_factor - 0.3) / parts_[part].work);
+}
+
+}  // namespace pairsum::harness

@@ -1,0 +1,333 @@
+#include "harness/run/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+#include "core/error.hpp"
+#include "harness/environment/environment.hpp"
+#include "harness/environment/machine.hpp"
+#include "harness/measure/binding.hpp"
+#include "harness/measure/counters.hpp"
+#include "harness/measure/cpu_time.hpp"
+#include "harness/measure/stopwatch.hpp"
+#include "harness/rows/writer.hpp"
+#include "harness/run/estimate.hpp"
+#include "harness/run/file_lock.hpp"
+#include "harness/run/interrupt.hpp"
+#include "harness/run/results_table.hpp"
+#include "harness/run/rows_so_far.hpp"
+#include "harness/verify/shared_store.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+environment_row own_environment(const study_plan& plan, const std::string& binding) {
+  return describe_environment(plan.study, thread_binding(binding).description(), counters().description());
+}
+
+bool same_build(const environment_row& a, const environment_row& b) {
+  return a.host == b.host && a.cpu == b.cpu && a.compiler == b.compiler && a.flags == b.flags && a.git == b.git &&
+         a.dirty == b.dirty;
+}
+
+/// What differs, for the message.
+std::string other_build(const environment_row& there, const environment_row& here) {
+  const auto say = [](const environment_row& e) {
+    return fmt::format("{}, git {}{}, {}, {}", e.host, e.git, e.dirty ? " with uncommitted changes" : "", e.compiler,
+                       e.flags);
+  };
+  return fmt::format("{}; this is {}", say(there), say(here));
+}
+
+class conductor {
+ public:
+  conductor(const study_plan& plan, const study_options& options, const registry& all)
+      : plan_(plan),
+        options_(options),
+        hash_(plan_hash(plan)),
+        environment_(own_environment(plan, options.binding)),
+        lock_(options.out),
+        estimate_(plan, all) {
+    const std::size_t cut = drop_cut_line(options.out);
+    if (cut > 0) say(fmt::format("{}: a last line that was cut ({} bytes) is taken away", options.out.string(), cut));
+    so_far_.emplace(options.out, plan_);
+    if (plan_.builds == 1)
+      for (const environment_row& e : so_far_->rows().environments)
+        if (!same_build(e, environment_))
+          throw error(fmt::format("{} holds rows of another machine or build ({}); --fresh starts a new file",
+                                  options.out.string(), other_build(e, environment_)));
+  }
+
+  int run() {
+    void_unfinished();
+    if (so_far_->open()) say(resuming());
+    if (!measure_peaks()) return ended();
+    double shares = 0;
+    for (const part_plan& part : plan_.parts) shares += part.share;
+    for (std::size_t k = 0; k < plan_.parts.size() && code_ == 0; ++k) {
+      measure_part(k, shares);
+      shares -= plan_.parts[k].share;
+    }
+    return ended();
+  }
+
+ private:
+  static constexpr int most_crashes = 2;  ///< in a row, of one round
+
+  void say(const std::string& line) const {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  }
+
+  /// The file, opened when there is the first row to write, so that bad input leaves none behind.
+  row_writer& file() {
+    if (!writer_) {
+      writer_.emplace(options_.out);
+      lock_.take();
+      if (!writer_->knows(environment_.environment)) writer_->write(environment_);
+    }
+    return *writer_;
+  }
+
+  void void_unfinished() {
+    for (const auto& [study, round] : so_far_->rows().unfinished_rounds())
+      file().write(void_row{study, utc_now(), round, "the round was cut: the study was killed or interrupted"});
+  }
+
+  std::string resuming() const {
+    std::string parts;
+    for (const part_plan& p : plan_.parts)
+      parts += fmt::format("{}{} of {} {}", parts.empty() ? "" : ", ", so_far_->rounds(p.request.part).size(),
+                           p.least_rounds == p.most_rounds ? fmt::format("{}", p.most_rounds)
+                                                           : fmt::format("{} to {}", p.least_rounds, p.most_rounds),
+                           p.request.part);
+    return fmt::format("resuming {}: rounds there: {}", options_.out.string(), parts);
+  }
+
+  double left() const { return plan_.budget_s - since_start_.seconds(); }
+
+  /// One process of the first build. False if the study ends here.
+  bool carry_out(errand what, std::size_t part, double estimated, const std::string& text) {
+    order o = order_for(what, part, estimated, text);
+    const std::size_t store_end = store_.end();
+    const departure end = options_.builds.front()(o);
+    done_s_ += estimated;
+    if (end.signal != 0 || end.code > 1) store_.truncate(store_end);
+    return went_well(end);
+  }
+
+  bool went_well(const departure& end) {
+    if (interrupted() || end.code == 130) {
+      code_ = 130;
+    } else if (end.signal != 0) {
+      say(fmt::format("a process of the study was ended by signal {}", end.signal));
+      code_ = 2;
+    } else if (end.code > 1) {
+      code_ = end.code == 127 || end.code == 126 ? 2 : end.code;
+    }
+    return code_ == 0;
+  }
+
+  order order_for(errand what, std::size_t part, double estimated, const std::string& text) const {
+    order o;
+    o.what = what;
+    o.plan = plan_;
+    o.part = part;
+    o.out = options_.out.string();
+    o.binding = options_.binding;
+    o.store = store_.descriptor();
+    o.where = {since_start_.seconds(), done_s_, estimated, std::max(estimate_.all_s(), done_s_ + estimated), text};
+    return o;
+  }
+
+  bool measure_peaks() {
+    if (!plan_.peaks || interrupted()) return true;
+    for (const peak_row& p : so_far_->rows().peaks)
+      if (p.environment == environment_.environment && p.study == plan_.study) return true;
+    file();
+    return carry_out(errand::peaks, 0, estimate_.peaks_s(), "the machine's peaks");
+  }
+
+  void measure_part(std::size_t k, double shares) {
+    const part_plan& part = plan_.parts[k];
+    const std::string& name = part.request.part;
+    const stopwatch since;
+    const double budget = left() * part.share / shares;
+    if (done(part)) return;
+    const double verifying = estimate_.verify_s(k);
+    if (plan_.budget_s > 0 && k > 0 && verifying + estimate_.round_s(k) > left()) {
+      say(fmt::format("{} is left out: {:.0f} s are left of the budget of {:.0f} s, about {:.0f} s are wanted", name,
+                      std::max(0.0, left()), plan_.budget_s, verifying + estimate_.round_s(k)));
+      left_out_ = true;
+      return;
+    }
+    stopwatch clock;
+    if (!carry_out(errand::verify, k, verifying, "verifying " + name)) return;
+    estimate_.verified(k, clock.lap());
+    int crashes = 0;
+    while (!done(part) && code_ == 0) {
+      const bool any = !so_far_->rounds(name).empty();
+      if (plan_.budget_s > 0 && any && since.seconds() + estimate_.round_s(k) > budget) {
+        cut_by_budget_ = true;
+        return;
+      }
+      clock.lap();
+      if (!measure_round(k)) {
+        if (code_ == 0 && ++crashes > most_crashes) {
+          say(fmt::format("{} is given up: its rounds did not come to an end {} times", name, crashes));
+          code_ = 2;
+        }
+        continue;
+      }
+      crashes = 0;
+      estimate_.measured(k, clock.lap());
+    }
+  }
+
+  bool done(const part_plan& part) const {
+    const int rounds = static_cast<int>(so_far_->rounds(part.request.part).size());
+    if (rounds >= part.most_rounds) return true;
+    if (rounds < part.least_rounds || part.half_width == 0) return false;
+    const auto width = so_far_->half_width(part.request.part);
+    return width && *width <= part.half_width;
+  }
+
+  std::string standing_of(std::size_t k) const {
+    const part_plan& part = plan_.parts[k];
+    const std::string& name = part.request.part;
+    std::string text = fmt::format("{} round {}/{}", name, so_far_->rounds(name).size() + 1, part.most_rounds);
+    if (const auto width = so_far_->half_width(name))
+      text += fmt::format(", +-{:.1f} %{}", 100 * *width,
+                          part.half_width > 0 ? fmt::format(" (goal {:.1f})", 100 * part.half_width) : "");
+    return text;
+  }
+
+  /// One round in all builds. False if it did not come to its end; then its rows are voided.
+  bool measure_round(std::size_t k) {
+    const part_plan& part = plan_.parts[k];
+    const int round = so_far_->next_round();
+    const auto machine_before = machine_time_now();
+    const double own_before = own_time();
+    double workers_s = 0;
+    stopwatch clock;
+    order o = order_for(errand::measure, k, estimate_.round_s(k), standing_of(k));
+    o.round = round;
+    const std::size_t store_end = store_.end();
+    for (const std::size_t build : shuffled_order(options_.builds.size(), part.request.seed, round, 0)) {
+      const departure end = options_.builds[build](o);
+      workers_s += end.cpu_s;
+      if (end.signal == 0 && end.code <= 1 && !interrupted()) {
+        failed_ = failed_ || end.code == 1;
+        continue;
+      }
+      store_.truncate(store_end);
+      give_up(round, end);
+      return false;
+    }
+    round_row r;
+    r.study = plan_.study;
+    r.utc = utc_now();
+    r.environment = environment_.environment;
+    r.round = round;
+    r.part = part.request.part;
+    r.replicate = so_far_->next_replicate(r.part);
+    r.plan = hash_;
+    r.seed = part.request.seed;
+    r.rows = rows_of(round);
+    r.elapsed_s = clock.seconds();
+    // A process in this one has its time in this one's: nothing is counted twice or left out.
+    r.others_share = share_of_others(machine_before, machine_time_now(), std::max(workers_s, own_time() - own_before));
+    file().write(r);
+    so_far_.emplace(options_.out, plan_);
+    done_s_ += estimate_.round_s(k);
+    return true;
+  }
+
+  std::uint64_t rows_of(int round) const {
+    const rows_file rows = read_rows(options_.out);
+    return static_cast<std::uint64_t>(std::ranges::count_if(
+        rows.samples, [&](const sample& s) { return s.study == plan_.study && s.round == round; }));
+  }
+
+  void give_up(int round, const departure& end) {
+    const bool stopped = interrupted() || end.code == 130;
+    const std::string why = stopped           ? "interrupted"
+                            : end.signal != 0 ? fmt::format("its process was ended by signal {}", end.signal)
+                                              : fmt::format("its process ended with code {}", end.code);
+    if (stopped)
+      code_ = 130;
+    else if (end.signal == 0)
+      code_ = 2;
+    drop_cut_line(options_.out);
+    so_far_.emplace(options_.out, plan_);
+    writer_.reset();
+    for (const auto& open : so_far_->rows().unfinished_rounds())
+      if (open.second == round) file().write(void_row{plan_.study, utc_now(), round, why});
+    if (end.signal != 0 && !stopped) say(fmt::format("round {} is voided and measured again: {}", round, why));
+    so_far_.emplace(options_.out, plan_);
+  }
+
+  int ended() {
+    const std::vector<sample> samples = so_far_->samples();
+    if (!samples.empty()) fmt::print("{}", results_table(samples));
+    if (code_ != 0) return code_;
+    const std::string reason = left_out_        ? "the budget ended before every part was measured"
+                               : cut_by_budget_ ? "the budget ended before every part had its rounds"
+                                                : "every part has its rounds";
+    if (left_out_ || cut_by_budget_) say(fmt::format("{} ({:.0f} s)", reason, plan_.budget_s));
+    file().write(end_row{plan_.study, utc_now(), hash_, reason});
+    return failed_ ? 1 : 0;
+  }
+
+  const study_plan& plan_;
+  const study_options& options_;
+  std::string hash_;
+  environment_row environment_;
+  file_lock lock_;
+  shared_store store_;
+  estimate estimate_;
+  std::optional<row_writer> writer_;
+  std::optional<rows_so_far> so_far_;
+  stopwatch since_start_;
+  double done_s_ = 0;
+  int code_ = 0;
+  bool failed_ = false, left_out_ = false, cut_by_budget_ = false;
+};
+
+}  // namespace
+
+std::filesystem::path rows_path(const std::filesystem::path& results, const study_plan& plan, bool fresh) {
+  const environment_row here = describe_environment(plan.study);
+  const std::filesystem::path folder = results / plan.study;
+  std::filesystem::path newest;
+  std::error_code code;
+  if (!fresh)
+    for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
+      if (entry.path().extension() != ".jsonl" || entry.path() < newest) continue;
+      try {
+        const rows_so_far rows(entry.path(), plan);
+        const auto& there = rows.rows().environments;
+        if (rows.unended() && !there.empty() && same_build(there.front(), here)) newest = entry.path();
+      } catch (const error&) {  // no rows file, or one of another version: nothing to resume
+      }
+    }
+  if (!newest.empty()) return newest;
+  return folder / fmt::format("{}-{}-{}.jsonl", here.host, utc_stamp(), here.git + (here.dirty ? "-dirty" : ""));
+}
+
+int conduct(const study_plan& plan, const study_options& options, const registry& all) {
+  check_plan(plan, all);
+  note_interrupts();
+  std::vector<int> crowded;
+  const int cores = usable_cores();
+  for (const part_plan& part : plan.parts)
+    for (const int t : part.request.threads)
+      if (t > cores && std::ranges::find(crowded, t) == crowded.end()) crowded.push_back(t);
+  for (const int t : crowded) fmt::print("note: {} threads on {} cores\n", t, cores);
+  return conductor(plan, options, all).run();
+}
+
+}  // namespace pairsum::harness
