@@ -45,7 +45,8 @@ std::string dry_run(const study_plan& plan, const registry& all) {
                         part.request.part, time.points(k), rounds_of(part), duration(time.round_s(k)),
                         duration(time.verify_s(k)));
     if (!part.reason.empty()) text += "  because: " + part.reason + "\n";
-    for (const auto& item : levels_json(part.request).items()) {
+    const nlohmann::json levels = levels_json(part.request);  // items() does not keep it
+    for (const auto& item : levels.items()) {
       const bool always = item.key() == "backend" || item.key() == "dx" || item.key() == "M" ||
                           item.key() == "threads" || item.key() == "state";
       if (always || item.value() != standard.at(item.key()))

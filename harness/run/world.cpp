@@ -49,7 +49,8 @@ void world::recall_work() {
   if (with_.store == nullptr) return;
   const auto bytes = with_.store->load(key() + "/work");
   if (!bytes) return;
-  for (const auto& item : nlohmann::json::parse(*bytes).items()) work_[item.key()] = item.value().get<work_row>();
+  const nlohmann::json counted = nlohmann::json::parse(*bytes);  // items() does not keep it
+  for (const auto& item : counted.items()) work_[item.key()] = item.value().get<work_row>();
 }
 
 void world::remember() {

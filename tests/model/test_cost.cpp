@@ -18,7 +18,16 @@ cost_question question() {
                .fluid_bytes = 80,
                .boundary_bytes = 48,
                .rates_bytes = 32};
-  q.backend = registry::instance().find_backend("naive").traits;
+  q.backend = {.name = "gather",
+               .description = "",
+               .aliases = "",
+               .threads = runtime::serial,
+               .symmetric = false,
+               .deterministic = true,
+               .accumulates = false,
+               .evaluations_per_pair = 2,
+               .sweeps_per_colour = false,
+               .keeps_pairs = false};
   q.work.pairs_tested = 5000;
   q.work.pairs_fluid_fluid = 1000;
   q.work.pairs_fluid_boundary = 10;
@@ -113,7 +122,7 @@ TEST(declared_evaluations, of_a_lie_are_named) {
   backend_traits lie = passes();
   const work_counts gathered{.pairs_fluid_fluid = 1000, .pairs_fluid_boundary = 10, .pairs_evaluated = 2010};
   EXPECT_EQ(contradiction(lie, gathered),
-            "naive evaluates the formula 2010 times; by its evaluations_per_pair of 1 it would be 1010");
+            "gather evaluates the formula 2010 times; by its evaluations_per_pair of 1 it would be 1010");
 }
 
 }  // namespace
