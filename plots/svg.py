@@ -25,7 +25,7 @@ def inline(figure, prefix, label):
                                                        "Type": None})
     text = stream.getvalue()
     text = text[text.index("<svg"):]
-    text = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->", "", text, flags=re.DOTALL)
+    text = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->|<defs>\s*<style.*?</style>\s*</defs>", "", text, flags=re.DOTALL)
     short = {name: f"{prefix}{at}" for at, name in enumerate(dict.fromkeys(_USED.findall(text)))}
     text = re.sub(r">\s+<", "><", re.sub(r"<[^>]*>", lambda tag: _tag(tag[0], short), text))
     width, height = figure.get_size_inches()
