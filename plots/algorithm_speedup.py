@@ -34,6 +34,6 @@ def _value_axis(axes, lines, counts):
     axes.set_ylabel("times faster than the base")
 
 
-def _equal(axes, counts):
+def _equal(axes, counts, lines):
     axes.axhline(1.0, color=style.RULE, linestyle="--", linewidth=1.2, label="equal", zorder=1)
-    return axes.get_xlim()[1], 1.0, "base", style.RULE
+    return [(axes.get_xlim()[1], 1.0, "base", style.RULE)]

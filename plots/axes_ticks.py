@@ -1,5 +1,6 @@
 """Ticks that read as plain numbers."""
-from matplotlib.ticker import EngFormatter, FixedLocator, FuncFormatter, LogLocator, NullLocator
+from matplotlib.ticker import (EngFormatter, FixedLocator, FuncFormatter, LogLocator, MaxNLocator,
+                               NullLocator)
 
 
 def whole(axis, values):
@@ -25,11 +26,12 @@ def threads(axes, counts):
 
 def logarithmic(axis, values, counted):
     """Scale an axis by decades with ticks 1, 2, 5; counts read 5 M, 1 G, other values 0.5, 20."""
-    axis.axes.set_yscale("log")
+    across = axis.axis_name == "x"
+    (axis.axes.set_xscale if across else axis.axes.set_yscale)("log")
     low, high = min(values), max(values)
     room = (high / low) ** 0.06 if high > low else 1.5
-    axis.axes.set_ylim(low / room, high * room)
-    axis.set_major_locator(LogLocator(subs=_subs(high / low), numticks=30))
+    (axis.axes.set_xlim if across else axis.axes.set_ylim)(low / room, high * room)
+    axis.set_major_locator(LogLocator(subs=_subs((high / low) ** (1.6 if across else 1)), numticks=30))
     axis.set_minor_locator(NullLocator())
     axis.set_major_formatter(EngFormatter(sep="\N{THIN SPACE}") if counted else
                              FuncFormatter(lambda value, _: f"{value:g}"))
@@ -42,3 +44,9 @@ def _subs(ratio):
     if ratio > 60:
         return (1, 2, 5)
     return (1, 2, 3, 5) if ratio > 6 else (1, 1.5, 2, 3, 4, 5, 6, 8)
+
+
+def few(axis):
+    """Tick an axis at a few round values, written as plain numbers."""
+    axis.set_major_locator(MaxNLocator(5))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

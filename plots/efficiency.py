@@ -19,7 +19,7 @@ def _value_axis(axes, lines, counts):
     axes.set_ylabel("efficiency: speedup / threads")
 
 
-def _ideal(axes, counts):
+def _ideal(axes, counts, lines):
     axes.plot([min(counts), max(counts)], [1.0, 1.0], color=style.RULE, linestyle="--",
               linewidth=1.2, label="ideal", zorder=1)
-    return max(counts), 1.0, "ideal", style.RULE
+    return [(max(counts), 1.0, "ideal", style.RULE)]

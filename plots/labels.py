@@ -41,13 +41,13 @@ def spread(wanted, step, low, high):
     return [min(max(mean, low), last) + index * step for index, mean in enumerate(means)]
 
 
-def at_ends(axes, ends, reference=None):
-    """Label line ends: ends = [(x, y, text, colour)], reference likewise. Set the limits before.
+def at_ends(axes, ends, references=()):
+    """Label line ends: ends = [(x, y, text, colour)], references likewise. Set the limits before.
 
     The labels stand right of the panel, or right of the points where all lines end early at one x;
-    the label of the reference line always stands right of the panel.
+    the labels of reference lines always stand right of the panel.
     """
-    everything = ends + ([reference] if reference else [])
+    everything = [*ends, *references]
     if not everything:
         return
     box = axes.get_position()

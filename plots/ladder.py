@@ -1,8 +1,8 @@
 """All backends at their best M: time per interacting pair and its parts, fastest on top."""
 from matplotlib.colors import to_rgb
-from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+import choice
 import labels
 import layout
 import panels
@@ -11,16 +11,16 @@ from summary import PAIR_PARTS, NoData
 
 NAME = "ladder"
 _BAR = 0.26  # inches per bar
-#: Parts in their order in time: (key, hatch); the summation is solid, the others are light.
-_PARTS = (("prepare", "////"), ("zero", ""), ("sum", ""), ("reduce", "...."))
+#: Parts in their order in time: (key, how far towards white, or below 0 towards black).
+_PARTS = (("prepare", 0.6), ("zero", 0.85), ("sum", 0.0), ("reduce", -0.45))
 
 
 def draw(summary):
     """Return the figure, or raise NoData. Per state (case, dx, ...): 1 thread and most threads."""
     groups = []
     for panel in panels.of_points(summary, _known):
-        one = best(row for row in panel.rows if row["threads"] == 1)
-        most = best(_at_most_threads(panel.rows))
+        one = choice.best((row for row in panel.rows if row["threads"] == 1), _all)
+        most = choice.best(choice.at_most_threads(panel.rows), _all)
         columns = [("1 thread", one)] if one else []
         if any(row["threads"] > 1 for row in most):
             columns.append(("each at its most threads", most))
@@ -28,30 +28,22 @@ def draw(summary):
     if not groups:
         raise NoData('no entry of "points" has all ns_per_pair_parts')
     common, own = panels.titles([panel for panel, _ in groups])
-    places = layout.arrange([columns for _, columns in groups], most=2)
+    places = layout.arrange(summary, [columns for _, columns in groups], most=2)
     rows = max(len(some) for _, columns in groups for _, some in columns)
     names = [_name(row) for _, columns in groups for _, some in columns for row in some]
     titles = {place: panels.joined(text, column) for (_, columns), text, group
               in zip(groups, own, places) for (column, _), place in zip(columns, group)}
     values = [_value(row) for _, columns in groups for _, some in columns for row in some]
-    page = layout.Sheet(summary, "prepare + zero + sum + reduce, ns per interacting pair", common,
+    page = layout.Sheet(summary, "prepare + zero + sum + reduce, ns per interacting pair",
+                        f"{common}; number: all (sum alone), at the best M",
                         titles, 3.1, 0.15 + _BAR * rows,
-                        (labels.tick_room(names), labels.room(values)), head=0.3)
+                        (labels.tick_room(names), labels.room(values)),
+                        key=[Patch(label=part, **_look(shade, style.MUTED)) for part, shade in _PARTS])
     for (_, columns), group in zip(groups, places):
         right = max(_end(row) for _, some in columns for row in some)
         for (_, some), place in zip(columns, group):
             _panel(page.axes[place], some, right)
-    handles = [Patch(label=part, **_look(part, hatch, style.MUTED)) for part, hatch in _PARTS]
-    handles.append(Line2D([], [], linestyle="", label="number: all (sum alone), at the best M"))
-    page.figure.legend(handles=handles, loc="upper left", ncol=len(handles), frameon=False,
-                       bbox_to_anchor=(0.1 / page.size[0], 1 - (page.head - 0.42) / page.size[1]),
-                       borderaxespad=0, handlelength=1.6, columnspacing=1.4)
     return page.figure
-
-
-def best(rows):
-    """Return each backend's row with the smallest time of all parts, fastest first."""
-    return sorted((min(some, key=_all) for _, some in panels.split(rows, "backend")), key=_all)
 
 
 def _known(entry):
@@ -68,12 +60,6 @@ def _end(row):
     return sum(row["ns_per_pair_parts"][part] for part, _ in _PARTS)
 
 
-def _at_most_threads(rows):
-    most = {backend: max(row["threads"] for row in some)
-            for backend, some in panels.split(rows, "backend")}
-    return [row for row in rows if row["threads"] == most[row["backend"]]]
-
-
 def _name(row):
     return f"{row['backend']}, {panels.m_text(row['M'])}, {row['threads']} thr."
 
@@ -86,21 +72,21 @@ def _number(nanoseconds):
     return f"{nanoseconds:.1f}" if nanoseconds >= 10 else f"{nanoseconds:#.3g}"
 
 
-def _look(part, hatch, colour):
+def _look(shade, colour):
     """Return how a part is drawn in the colour of its backend."""
-    light = tuple(0.3 * channel + 0.7 for channel in to_rgb(colour))
-    return {"facecolor": colour if part == "sum" else light, "hatch": hatch,
-            "edgecolor": style.INK, "linewidth": 0.5}
+    towards = 1.0 if shade > 0 else 0.0
+    face = tuple((1 - abs(shade)) * channel + abs(shade) * towards for channel in to_rgb(colour))
+    return {"facecolor": face, "edgecolor": style.INK, "linewidth": 0.5}
 
 
 def _panel(axes, rows, right):
     for at, row in enumerate(rows):
         left, name = 0.0, f"{row['backend']} {panels.m_text(row['M'])}"
-        for part, hatch in _PARTS:
+        for part, shade in _PARTS:
             length = row["ns_per_pair_parts"][part]
             axes.barh(at, length, left=left, height=0.7,
                       label=name if part == "sum" else f"{part} of {name}",
-                      **_look(part, hatch, style.colour(row["backend"])))
+                      **_look(shade, style.colour(row["backend"])))
             left += length
         axes.annotate(_value(row), (left, at), xytext=(4, 0),
                       textcoords="offset points", va="center", fontsize=style.SMALL)

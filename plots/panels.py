@@ -1,4 +1,6 @@
 """Sort rows into panels and say in words what a panel shows."""
+import environments
+import usual
 
 #: Fields that tell panels apart. Points hold all of them, tables the first three and maybe more.
 FIELDS = ("case", "state", "dx", "n_fluid", "n_boundary", "H", "order", "dim", "precision",
@@ -20,17 +22,33 @@ def of_table(summary, table, keep=lambda row: True):
     """Group a table's rows by the FIELDS they hold; the other facts come from matching points."""
     points = [flat(summary, entry) for entry in summary["points"]]
     found = []
-    for key, rows in _group(filter(keep, summary[table]), FIELDS):
+    keeps, copies = usual.is_usual(summary), self_test_copies(summary)
+    rows = [row for row in summary[table] if keep(row) and keeps(row)
+            and row.get("backend") not in copies]
+    for key, rows in _group(rows, FIELDS):
         same = [point for point in points if all(value is None or point.get(field) == value
                                                  for field, value in zip(FIELDS, key))]
         found.append(Panel(rows, _facts(same or rows)))
     return found
 
 
-def of_points(summary, keep=lambda entry: True):
-    """Group the summary's points by everything but backend, M and threads."""
-    entries = [{**entry, **flat(summary, entry)} for entry in summary["points"] if keep(entry)]
-    return [Panel(rows, _facts(rows)) for _, rows in _group(entries, FIELDS)]
+def of_points(summary, keep=lambda entry: True, every=False, without=()):
+    """Group the summary's points by everything but backend, M, threads and the fields `without`.
+
+    Points of another granularity than the usual one are left out unless `every` is wanted.
+    """
+    keeps, copies = usual.is_usual(summary), self_test_copies(summary)
+    entries = [{**entry, **flat(summary, entry)} for entry in summary["points"]
+               if keep(entry) and (every or keeps(entry["point"]))
+               and entry["point"]["backend"] not in copies]
+    fields = [field for field in (*FIELDS, "environment") if field not in without]
+    return [Panel(rows, {**_facts(rows), **{field: set() for field in without}})
+            for _, rows in _group(entries, fields)]
+
+
+def self_test_copies(summary):
+    """Return the backends that are copies of others, made for the self-test; only its figure shows them."""
+    return {row["backend"] for row in summary["self_test"] if row["backend"] != row["base_backend"]}
 
 
 def flat(summary, entry):
@@ -38,12 +56,15 @@ def flat(summary, entry):
     series, all_series = entry.get("series"), summary.get("series") or []
     known = isinstance(series, int) and 0 <= series < len(all_series)
     return {**entry["point"], "study": entry.get("study"), "series": series,
-            "environment": all_series[series].get("environment") if known else None}
+            "environment": environments.name(summary, all_series[series].get("environment"))
+            if known else None}
 
 
 def titles(panels):
     """Return (text common to all panels, [text of what differs, one per panel])."""
     worded = [_words(panel.facts) for panel in panels]
+    if len({words["dx"] for words in worded}) == len({(words["dx"], words["H"]) for words in worded}):
+        worded = [{**words, "H": ""} for words in worded]  # it follows dx
     common, own = [], [[] for _ in panels]
     for field in worded[0]:
         texts = [words[field] for words in worded]
@@ -100,7 +121,7 @@ def _words(facts):
         "order": lambda v: f"order {v}", "smoothing": str, "integrator": str,
         "dt": lambda v: f"dt = {v:g} s", "isa": lambda v: f"isa {v}",
         "grid": str, "study": lambda v: f"study {v}",
-        "environment": lambda v: f"environment {str(v)[:8]}",
+        "environment": str,
     }
     return {field: " / ".join(form(value) for value in sorted(facts[field]))
             for field, form in forms.items()}

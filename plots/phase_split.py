@@ -1,4 +1,5 @@
 """Where the time of a step goes: stacked bars of the phases, one bar per measured point."""
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
@@ -22,16 +23,19 @@ def draw(summary):
     split = [panels.split(panel.rows, "M") for panel in found]
     bars = [sorted({(row["backend"], row["threads"]) for row in panel.rows}, key=_rank)
             for panel in found]
-    places = layout.arrange(split)
+    places = layout.arrange(summary, split)
     heights = {}
     for group, some in zip(places, bars):
         for row, _ in group:
             heights[row] = max(heights.get(row, 0), 0.15 + _BAR * len(some))
     titles = {place: panels.joined(text, panels.m_text(m)) for columns, text, group
               in zip(split, own, places) for (m, _), place in zip(columns, group)}
+    key = [Patch(facecolor=colour, label=name) for _, name, colour in style.PHASES]
+    key.append(Line2D([], [], color=style.INK, marker="|", linestyle="", markersize=9,
+                      markeredgewidth=1.6, label="whole step"))
     page = layout.Sheet(summary, "Phases of a step (medians)", common, titles, 2.9, heights,
                         (labels.tick_room(_name(bar) for names in bars for bar in names), 0.25),
-                        head=0.3)
+                        key=key)
     for columns, names, group in zip(split, bars, places):
         axes_of_group = [page.axes[place] for place in group]
         for (_, rows), axes in zip(columns, axes_of_group):
@@ -40,14 +44,6 @@ def draw(summary):
         for axes in axes_of_group:  # one scale, unless a panel would be too small to read
             own_right = axes.get_xlim()[1]
             axes.set_xlim(0, right if own_right > right / 5 else own_right)
-    handles = [Patch(facecolor=colour, label=name)
-               for _, name, colour in style.PHASES]
-    mark = page.figure.axes[0].plot([], [], color=style.INK, marker="|", linestyle="",
-                                    markersize=9, markeredgewidth=1.6, label="whole step")
-    page.figure.legend(handles=handles + mark, loc="upper left", ncol=len(handles) + 1,
-                       frameon=False, bbox_to_anchor=(0.1 / page.size[0],
-                                                      1 - (page.head - 0.42) / page.size[1]),
-                       borderaxespad=0, handlelength=1.1, columnspacing=1.4)
     return page.figure
 
 

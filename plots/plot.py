@@ -4,20 +4,27 @@ import importlib
 import os
 import sys
 
+import figures
 import summary as summaries
 
-FIGURES = ("speedup", "efficiency", "algorithm_speedup", "m_comparison", "phase_split", "ladder")
+FIGURES = tuple(figures.FIGURES)
 FORMATS = ("svg", "png")
 
 _HELP = """\
 Draw the figures of a summary that `pairsum report` made. Each figure is written as SVG and PNG.
 
+  ladder             time per interacting pair, every backend at its best M
   speedup            speedup over the backend's own 1 thread, against threads
   efficiency         that speedup divided by the threads
   algorithm_speedup  how many times faster one algorithm is than another, per runtime
-  m_comparison       time per step, distance tests and non-empty cells against M
+  m_comparison       summation time, distance tests, collisions and cells against M
   phase_split        where the time of a step goes, one bar per measured point
-  ladder             time per interacting pair, every backend at its best M
+  barrier_wait       busy and waiting time of each thread
+  roofline           achieved flops under the measured bandwidth and peak
+  size_scaling       summation time against the number of particles
+  granularity        summation time against the chunk, per schedule
+  compilers          the same backend built by several compilers
+  self_test          what the harness measured of known differences
 """
 _MORE = """\
 Nothing is computed here: what is drawn stands in the summary. A figure without data is skipped

@@ -6,13 +6,15 @@ import thread_lines
 from summary import NoData
 
 NAME = "speedup"
+_DRAWN = ("speedup", "low", "high", "machine_flops_scaling", "machine_bandwidth_scaling")
+_MACHINE = (("flops", "-"), ("bandwidth", ":"))  # measured peaks against 1 thread
 
 
 def draw(summary):
     """Return the figure, or raise NoData. One panel per state (case, dx) and M."""
     groups = parallel_lines(summary, "speedup")
     return thread_lines.sheet(summary, "Speedup of the summation over own 1 thread", groups,
-                              _value_axis, _ideal)
+                              _value_axis, _references)
 
 
 def parallel_lines(summary, value):
@@ -35,7 +37,7 @@ def parallel_lines(summary, value):
 
 
 def _value_axis(axes, lines, counts):
-    values = [row[key] for line in lines for row in line.rows for key in ("speedup", "low", "high")
+    values = [row[key] for line in lines for row in line.rows for key in _DRAWN
               if row[key] is not None and row[key] > 0]
     low, high = min(values + counts), max(values + counts)
     if max(counts) >= 4:
@@ -48,7 +50,17 @@ def _value_axis(axes, lines, counts):
     axes.set_ylabel("speedup over own 1 thread")
 
 
-def _ideal(axes, counts):
+def _references(axes, counts, lines):
+    """Draw what would be ideal, and how flops and bandwidth of the machine scale if known."""
     axes.plot([min(counts), max(counts)], [min(counts), max(counts)], color=style.RULE,
               linestyle="--", linewidth=1.2, label="ideal", zorder=1)
-    return max(counts), max(counts), "ideal", style.RULE
+    ends = [(max(counts), max(counts), "ideal", style.RULE)]
+    for what, look in _MACHINE:
+        known = {row["threads"]: row[f"machine_{what}_scaling"] for line in lines
+                 for row in line.rows if row[f"machine_{what}_scaling"] is not None}
+        if len(known) > 1:
+            spots = sorted(known.items())
+            axes.plot(*zip(*spots), color=style.RULE, linestyle=look, linewidth=2.4, alpha=0.75,
+                      label=f"machine {what}", zorder=1)
+            ends.append((*spots[-1], f"machine's {what}", style.RULE))
+    return ends

@@ -33,6 +33,8 @@ PHASES = (
     ("integrate_s", "integrate", "#999999"),
 )
 
+HOLDS, FAILS = "#0072B2", "#D55E00"  # a self-test that holds, or does not
+
 _MARKERS = {5: "v", 6: "o", 7: "s", 8: "D", 9: "^", 4: "<", 10: ">"}
 _LINES = {"serial": ":", "omp": "-", "tbb": (0, (5, 2))}
 
@@ -72,6 +74,8 @@ def apply():
     """Set the defaults of all figures (fonts, white background, repeatable SVG)."""
     matplotlib.rcdefaults()
     matplotlib.use("Agg")
+    if "text.parse_math" in matplotlib.rcParams:  # a $ in a host's name is a $ (matplotlib 3.6)
+        matplotlib.rcParams["text.parse_math"] = False
     matplotlib.rcParams.update({
         "figure.facecolor": "white", "axes.facecolor": "white", "savefig.facecolor": "white",
         "font.family": "DejaVu Sans", "font.size": SIZE, "axes.titlesize": SIZE + 0.5,

@@ -1,30 +1,8 @@
-"""Load and check a summary.json (docs/design.md section 4). Every error is one clear line."""
+"""Load and check a summary.json. Every error is one clear line."""
 import json
-import math
 
-SCHEMA = "pairsum.summary/1"
-
-TEXT, NUMBER, OPTIONAL = "text", "a number", "a number or null"
-COUNT, POSITIVE = "a whole number from 1", "a positive number or null"
-_PLACE = {"case": TEXT, "state": TEXT, "dx": NUMBER}
-_SPEEDUP = {"speedup": POSITIVE, "low": OPTIONAL, "high": OPTIONAL}
-
-#: What the plots need of each table: field -> kind. Other fields may be there and are ignored.
-TABLES = {
-    "speedup": {**_PLACE, "backend": TEXT, "M": OPTIONAL, "threads": COUNT, "base_backend": TEXT,
-                "base_threads": COUNT, "efficiency": OPTIONAL, **_SPEEDUP},
-    "algorithm_speedup": {**_PLACE, "runtime": TEXT, "threads": COUNT, "base_backend": TEXT,
-                          "base_M": OPTIONAL, "backend": TEXT, "M": OPTIONAL, **_SPEEDUP},
-    "m_comparison": {**_PLACE, "backend": TEXT, "threads": COUNT, "M": OPTIONAL,
-                     "total_s": OPTIONAL, "cells_nonempty": OPTIONAL, "pairs_tested": OPTIONAL,
-                     "useful_pair_ratio": OPTIONAL},
-}
-POINT = {**_PLACE, "n_fluid": NUMBER, "n_boundary": NUMBER, "precision": TEXT,
-         "interaction": TEXT, "backend": TEXT, "M": OPTIONAL, "threads": COUNT}
-#: Other fields that may tell panels apart.
-_SCALARS = ("H", "order", "dim", "smoothing", "integrator", "dt", "isa", "grid", "study", "series")
-PHASES = ("index_s", "prepare_s", "zero_s", "sum_s", "reduce_s", "integrate_s", "total_s")
-PAIR_PARTS = ("prepare", "zero", "sum", "reduce", "all")
+import schema
+from schema import PAIR_PARTS, PHASES, SCHEMA, TABLES
 
 
 class SummaryError(Exception):
@@ -62,33 +40,73 @@ def check(data, path="the summary"):
     """Raise SummaryError unless `data` has the tables and fields that the plots read."""
     if not isinstance(data, dict) or data.get("schema") != SCHEMA:
         found = data.get("schema") if isinstance(data, dict) else None
-        what = f'its "schema" is {json.dumps(found)}' if found else 'it has no "schema"'
+        what = f'its "schema" is {json.dumps(found)[:60]}' if found else 'it has no "schema"'
         raise SummaryError(f'{path} is not a pairsum summary: {what}, expected "{SCHEMA}"')
-    for table in ("environments", "points", "caveats", *TABLES):
+    for table in schema.LISTS:
         if not isinstance(data.get(table), list):
             raise SummaryError(f'{path} has no list "{table}"')
+    _check_row({"title": data.get("title")}, {"title": schema.TEXT}, path)
     for table, fields in TABLES.items():
         for number, row in enumerate(data[table]):
             _check_row(row, fields, f"{path}: {table}[{number}]")
     for number, entry in enumerate(data["points"]):
-        where = f"{path}: points[{number}]"
-        _check_row(entry, {"ns_per_pair": OPTIONAL}, where)
-        _check_row(entry.get("ns_per_pair_parts", dict.fromkeys(PAIR_PARTS)),
-                   dict.fromkeys(PAIR_PARTS, OPTIONAL), f"{where}.ns_per_pair_parts")
-        _check_row(entry.get("point"), POINT, f"{where}.point")
-        if not isinstance(entry.get("phases"), dict):
-            raise SummaryError(f'{where} has no object "phases"')
-        for phase in PHASES:
-            _check_row(entry["phases"].get(phase, {"median": None}), {"median": OPTIONAL},
-                       f"{where}.phases.{phase}")
+        _check_entry(entry, f"{path}: points[{number}]")
     for number, row in enumerate(data["environments"]):
         _check_row(row, {}, f"{path}: environments[{number}]")
+    for number, text in enumerate(data["caveats"]):
+        if not isinstance(text, str):
+            raise SummaryError(f"{path}: caveats[{number}] is not text")
+    _check_answer(data, path)
+
+
+def _check_entry(entry, where):
+    _check_row(entry, schema.ENTRY, where)
+    _check_row(entry.get("ns_per_pair_parts", dict.fromkeys(PAIR_PARTS)),
+               dict.fromkeys(PAIR_PARTS, schema.OPTIONAL), f"{where}.ns_per_pair_parts")
+    _check_row(entry.get("point"), schema.POINT, f"{where}.point")
+    if not isinstance(entry.get("phases"), dict):
+        raise SummaryError(f'{where} has no object "phases"')
+    for phase in PHASES:
+        _check_row(entry["phases"].get(phase, {"median": None}), {"median": schema.OPTIONAL},
+                   f"{where}.phases.{phase}")
+    if entry.get("model") is not None:
+        _check_row(entry["model"], schema.MODEL, f"{where}.model")
+    if entry.get("passes") is not None:
+        _check_passes(entry["passes"], f"{where}.passes")
+
+
+def _check_passes(passes, where):
+    _check_row(passes, {"wait_share": schema.OPTIONAL}, where)
+    shapes = []
+    for field in ("busy_s", "barrier_wait_s"):
+        table = passes.get(field)
+        if not isinstance(table, list) or not table or not all(
+                isinstance(some, list) and some and len(some) == len(table[0]) for some in table):
+            raise SummaryError(f'{where} has no table "{field}" of passes and threads')
+        for some in table:
+            for value in some:
+                _check_row({field: value}, {field: schema.NUMBER}, where)
+        shapes.append((len(table), len(table[0])))
+    if shapes[0] != shapes[1]:
+        raise SummaryError(f"{where}: busy_s and barrier_wait_s differ in passes or threads")
+
+
+def _check_answer(data, path):
+    if "answer" not in data:
+        raise SummaryError(f'{path} has no "answer" (null if nothing can be recommended)')
+    if data["answer"] is not None:
+        _check_row(data["answer"], schema.ANSWER, f"{path}: answer")
+        ties = data["answer"].get("ties")
+        if not isinstance(ties, list):
+            raise SummaryError(f'{path}: answer has no list "ties"')
+        for number, row in enumerate(ties):
+            _check_row(row, schema.TIE, f"{path}: answer.ties[{number}]")
 
 
 def doubles(data):
     """Return one note per table that holds several rows for what its keys call one point."""
     notes = []
-    for table in TABLES:
+    for table in ("speedup", "algorithm_speedup", "m_comparison"):
         keys = [tuple((field, value) for field, value in row.items() if isinstance(value, str)
                       or field in ("dx", "M", "threads", "base_M", "series"))
                 for row in data[table]]
@@ -100,32 +118,9 @@ def doubles(data):
 
 
 def _check_row(row, fields, where):
-    if not isinstance(row, dict):
-        raise SummaryError(f"{where} is not an object")
-    for field in _SCALARS:
-        if isinstance(row.get(field), (dict, list)):
-            raise SummaryError(f'{where}: "{field}" is not one word or number')
-    for field, kind in fields.items():
-        if field not in row:
-            raise SummaryError(f'{where} has no "{field}"')
-        if not _is(row[field], kind):
-            raise SummaryError(f'{where}: "{field}" is {json.dumps(row[field])[:60]}, '
-                               f"expected {kind}")
-
-
-def _is(value, kind):
-    if kind is TEXT:
-        return isinstance(value, str)
-    if value is None:
-        return kind in (OPTIONAL, POSITIVE)
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return False
-    try:
-        if not math.isfinite(value):
-            return False
-    except OverflowError:
-        return False
-    return value > 0 if kind is POSITIVE else kind is not COUNT or (value >= 1 and value % 1 == 0)
+    wrong = schema.fault(row, fields)
+    if wrong:
+        raise SummaryError(where + wrong)
 
 
 def _no_constant(name):

@@ -24,14 +24,7 @@ class Line:
                 "marker": style.marker(self.m), "markeredgecolor": style.INK,
                 "markeredgewidth": 0.6, "markersize": 5.5, "linewidth": 1.8, "zorder": 3}
         axes.plot(x, y, label=self.name, **look)
-        known = self.known()
-        if known:
-            values = [row[self.value] for row in known]
-            reach = [[max(value - row["low"], 0) for value, row in zip(values, known)],
-                     [max(row["high"] - value, 0) for value, row in zip(values, known)]]
-            axes.errorbar([row["threads"] for row in known], values, yerr=reach, fmt="none",
-                          ecolor=look["color"], elinewidth=1.1, capsize=3.5,
-                          label=f"interval {self.name}")
+        intervals(axes, self.known(), "threads", self.value, f"interval {self.name}", look["color"])
 
     def known(self):
         """Return the rows with an interval; the summary holds them for speedups only."""
@@ -44,23 +37,23 @@ class Line:
         return last["threads"], last[self.value], self.text, style.colour(self.backend)
 
 
-def sheet(summary, title, groups, value_axis, reference):
+def sheet(summary, title, groups, value_axis, references):
     """Draw groups of panels and return the figure.
 
     groups: per panels.Panel a list of (column text, [Line]); value_axis(axes, lines, counts) sets
-    the y axis; reference(axes, counts) draws a line and returns its end for the label.
+    the y axis; references(axes, counts, lines) draws lines and returns their ends for the labels.
     """
     keys = [panel for panel, _ in groups]
     common, own = panels.titles(keys)
-    places = layout.arrange([columns for _, columns in groups])
+    places = layout.arrange(summary, [columns for _, columns in groups])
     titles = {place: panels.joined(text, column) for (_, columns), text, group
               in zip(groups, own, places) for (column, _), place in zip(columns, group)}
     lines = [line for _, columns in groups for _, some in columns for line in some]
     if any(line.known() for line in lines):
-        common += "; error bars: low to high of the summary"
-    most = max(len(some) for _, columns in groups for _, some in columns) + 1
+        common += f"; error bars: {confidence(row for line in lines for row in line.known())}"
+    most = max(len(some) for _, columns in groups for _, some in columns) + 3
     page = layout.Sheet(summary, title, common, titles, 2.9, max(2.35, most * labels.STEP + 0.1),
-                        (0.62, labels.room([line.text for line in lines])))
+                        (0.62, labels.room([line.text for line in lines] + ["machine's bandwidth"])))
     counts = sorted({row["threads"] for line in lines for row in line.rows})
     for (_, columns), group in zip(groups, places):
         for (_, some), place in zip(columns, group):
@@ -69,6 +62,24 @@ def sheet(summary, title, groups, value_axis, reference):
                 line.draw(axes)
             axes_ticks.threads(axes, counts)
             value_axis(axes, lines, counts)
-            ideal = reference(axes, counts)
-            labels.at_ends(axes, [line.end() for line in some], ideal)
+            ends = references(axes, counts, some)
+            labels.at_ends(axes, [line.end() for line in some], ends)
     return page.figure
+
+
+def intervals(axes, rows, field, value, name, colour):
+    """Draw low to high of the rows that know both as error bars at their fields' values."""
+    known = [row for row in rows if row["low"] is not None and row["high"] is not None]
+    if known:
+        values = [row[value] for row in known]
+        reach = [[max(at - row["low"], 0) for at, row in zip(values, known)],
+                 [max(row["high"] - at, 0) for at, row in zip(values, known)]]
+        axes.errorbar([row[field] for row in known], values, yerr=reach, fmt="none", ecolor=colour,
+                      elinewidth=1.1, capsize=3, label=name)
+
+
+def confidence(rows):
+    """Say which confidence the intervals of these rows have."""
+    levels = sorted({f"{100 * row['confidence']:.3g} %" for row in rows
+                     if row.get("confidence") is not None})
+    return f"{' / '.join(levels)} intervals" if levels else "intervals of the summary"

@@ -4,9 +4,10 @@
 
 build_packages=(g++ cmake make ninja-build pkg-config git libbenchmark-dev libtbb-dev libeigen3-dev
   nlohmann-json3-dev libhwloc-dev libcli11-dev libfmt-dev)
-plots_packages=(python3-numpy python3-matplotlib)
+plots_packages=(python3-numpy python3-matplotlib python3-jinja2)
 tests_packages=(libgtest-dev librapidcheck-dev python3-jsonschema python3-pytest
-  clang-14 libomp-14-dev libclang-rt-14-dev clang-format-14 clang-tidy-14)
+  clang-14 libomp-14-dev libclang-rt-14-dev clang-format-14 clang-tidy-14
+  chromium chromium-driver python3-selenium)
 
 exit_missing=3 # what a script exits with when something it needs is not installed
 

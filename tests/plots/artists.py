@@ -15,7 +15,7 @@ def lines(axes):
     """Return {label: [(x, y)]} of the named lines, without reference lines."""
     return {line.get_label(): list(zip(*line.get_data())) for line in axes.lines
             if not line.get_label().startswith("_") and line.get_label() not in (
-                "ideal", "equal")}
+                "ideal", "equal", "machine flops", "machine bandwidth")}
 
 
 def intervals(axes):

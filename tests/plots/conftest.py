@@ -16,6 +16,21 @@ import style  # noqa: E402
 MADE = {"two_threads": made_summary.make(),
         "sixteen_threads": made_summary.make((1, 2, 4, 8, 16)),
         "one_panel": made_summary.make(states=("rest",), ms=(6,), intervals=False)}
+FULL = made_summary.full(ms=(6, 7))
+
+
+@pytest.fixture(params=[*MADE, "full"])
+def any_made(request):
+    """Each made summary in turn, and the one that fills every table."""
+    style.apply()
+    return {**MADE, "full": FULL}[request.param]
+
+
+@pytest.fixture
+def full():
+    """The summary that fills every table; not to be changed."""
+    style.apply()
+    return FULL
 
 
 @pytest.fixture(params=MADE)

@@ -1,0 +1,105 @@
+"""The tables of the report: which rows and columns of the summary each shows."""
+import environments
+import wording
+
+NUMBER, TEXT, LONG = "number", "", "long"
+
+
+def _key(name, scale=1.0, digits=4):
+    def cell(row):
+        value = row.get(name)
+        if value is None or isinstance(value, (str, bool)):
+            return {None: "", True: "yes", False: "NO"}.get(value, value)
+        return wording.number(value if scale == 1.0 else scale * value, digits)
+    return cell
+
+
+def _in_ms(row):
+    return wording.interval({key: None if row.get(key) is None else 1e3 * row[key] for key in ("low", "high")})
+
+
+def _plain_dx(row):
+    return "" if row.get("dx") is None else f"{row['dx']:g}"
+
+
+_WORLD = [("case", _key("case"), TEXT), ("state", _key("state"), TEXT), ("dx [m]", _plain_dx, NUMBER),
+          ("build", _key("world"), TEXT)]
+_POINT = [("backend", _key("backend"), TEXT), ("M", _key("M"), NUMBER), ("threads", _key("threads"), NUMBER)]
+_GRAIN = [("granularity", _key("granularity"), TEXT)]
+_TIME = [("time [ms]", _key("time_s", 1e3), NUMBER)]
+_BASE = [("base [ms]", _key("base_time_s", 1e3), NUMBER)]
+_RATIO = [("ratio", _key("ratio", digits=3), NUMBER), ("interval", wording.interval, NUMBER)]
+_SPEEDUP = [("speedup", _key("speedup", digits=3), NUMBER), ("interval", wording.interval, NUMBER)]
+_VERDICT = [("verdict", _key("verdict"), TEXT)]
+
+#: name in the summary, heading, caption, columns; a column without any value is left out.
+TABLES = (
+    ("points", "Points", "Medians over rounds. The interval is of the sum.",
+     _WORLD + _POINT + _GRAIN + [("sum [ms]", _key("time_s", 1e3), NUMBER), ("interval [ms]", _in_ms, NUMBER),
+      ("step [ms]", _key("total_s", 1e3), NUMBER), ("ns per pair", _key("ns_per_pair"), NUMBER),
+      ("useful pairs [%]", _key("useful_pair_ratio", 100, 3), NUMBER),
+      ("wait [%]", _key("wait_share", 100, 3), NUMBER), ("of the bound [%]", _key("share_of_bound", 100, 3), NUMBER),
+      ("limited by", _key("limited_by"), TEXT), ("between rounds [%]", _key("between", 100, 2), NUMBER),
+      ("rounds", _key("rounds"), NUMBER)]),
+    ("speedup", "Speedup", "Over the same backend with 1 thread.",
+     _WORLD + _POINT + _GRAIN + _TIME + _BASE + _SPEEDUP + [("efficiency", _key("efficiency", digits=3), NUMBER)]),
+    ("algorithm_speedup", "Algorithm speedup", "Over the base backend with the same runtime and threads.",
+     _WORLD + _POINT + _GRAIN + _TIME + [("base", _key("base_backend"), TEXT), ("base M", _key("base_M"), NUMBER)]
+     + _BASE + _SPEEDUP + _VERDICT),
+    ("runtime_comparison", "OpenMP against oneTBB", "Ratio: time with OpenMP / time with oneTBB.",
+     _WORLD + [("algorithm", _key("algorithm"), TEXT), ("M", _key("M"), NUMBER), ("threads", _key("threads"), NUMBER),
+      ("OpenMP [ms]", _key("omp_time_s", 1e3), NUMBER), ("oneTBB [ms]", _key("tbb_time_s", 1e3), NUMBER)]
+     + _RATIO + _VERDICT),
+    ("compiler_comparison", "Compilers", "Ratio: time with the base compiler / time.",
+     _WORLD + _POINT + _GRAIN + [("compiler", _key("compiler"), TEXT)] + _TIME
+     + [("base compiler", _key("base_compiler"), TEXT)] + _BASE + _RATIO + _VERDICT),
+    ("m_comparison", "Choice of M", "The interval is of the summation time.",
+     _WORLD + _POINT + [("sum [ms]", _key("time_s", 1e3), NUMBER), ("interval [ms]", _in_ms, NUMBER),
+      ("step [ms]", _key("total_s", 1e3), NUMBER), ("non-empty cells", _key("cells_nonempty"), NUMBER),
+      ("pairs tested", _key("pairs_tested"), NUMBER), ("collisions [%]", _key("collision_share", 100, 3), NUMBER),
+      ("useful pairs [%]", _key("useful_pair_ratio", 100, 3), NUMBER)]),
+    ("peaks", "Measured peaks", "Memory bandwidth and flops that the machine reached.",
+     [("environment", _key("world"), TEXT), ("threads", _key("threads"), NUMBER),
+      ("precision", _key("precision"), TEXT),
+      ("GB/s", _key("bandwidth_bytes_per_s", 1e-9), NUMBER), ("Gflop/s", _key("flops_per_s", 1e-9), NUMBER)]),
+    ("self_test", "Self-test", "Ratio: time / time of the base.",
+     [("check", _key("what"), TEXT)] + _POINT + [("expected", _key("expected", digits=3), NUMBER)] + _RATIO
+     + [("holds", _key("holds"), TEXT), ("in words", _key("text"), LONG)]),
+    ("failed", "Failed points", "Points without a verified result; their times do not count.",
+     _WORLD + _POINT + [("error", _key("error"), LONG)]),
+)
+
+
+def of(summaries):
+    """Return the tables that at least one of the summaries fills, one column per summary."""
+    found = []
+    for name, heading, caption, columns in TABLES:
+        contents = [_content(summary, name, columns) for summary in summaries]
+        if any(content["rows"] for content in contents):
+            found.append({"name": name, "heading": heading, "caption": caption, "columns": contents})
+    return found
+
+
+def _content(summary, name, columns):
+    rows = [_flat(summary, name, row) for row in summary.get(name) or [] if isinstance(row, dict)]
+    cells = [[cell(row) for _, cell, _ in columns] for row in rows]
+    world = [heading for heading, _, _ in _WORLD]
+    keep = [at for at, (heading, _, _) in enumerate(columns)
+            if len({row[at] for row in cells} - {""}) > (1 if heading in world else 0)]
+    return {"heads": [{"text": columns[at][0], "kind": columns[at][2]} for at in keep],
+            "rows": [[row[at] for at in keep] for row in cells]}
+
+
+def _flat(summary, name, row):
+    """Return a row with what a column needs at its top: of points the figures that lie deeper."""
+    if name in ("points", "failed") and isinstance(row.get("point"), dict):
+        some = row.get("phases") or {}
+        total, time = (some.get(phase) or {} for phase in ("total_s", "sum_s"))
+        row = {**row["point"], **(row.get("passes") or {}), **(row.get("model") or {}),
+               **(row.get("variance") or {}), **row,
+               "low": time.get("low"), "high": time.get("high"),
+               "time_s": time.get("median"), "total_s": total.get("median")}
+    identity, series = row.get("environment"), summary.get("series") or []
+    if isinstance(row.get("series"), int) and row["series"] < len(series):
+        identity = series[row["series"]].get("environment")
+    return {**row, "world": environments.name(summary, identity) or ""}

@@ -1,0 +1,58 @@
+"""The invented worlds, machines and costs that the made summaries are made of."""
+import hashlib
+
+SERIAL = ("naive", "pair_list", "sphysics_sweep", "ppm_stencil", "symmetric")
+PARALLEL = ("naive_omp", "naive_tbb", "symmetric_omp", "symmetric_tbb")
+BACKENDS = SERIAL + PARALLEL
+MS = (5, 6, 7, 8, 9)
+#: dx in m -> fluid particles, boundary particles, interacting pairs
+WORLDS = {0.00594: (1000000, 1014966, 13592338), 0.01188: (117649, 255188, 1591212)}
+USUAL = {"omp": "dynamic:32", "tbb": "auto", "serial": "none"}
+_NS = {"naive": 39.3, "pair_list": 31.0, "sphysics_sweep": 30.6, "ppm_stencil": 30.9, "symmetric": 29.8}
+_BANDWIDTH = {1: 11.2e9, 2: 19.8e9, 4: 27.1e9, 8: 34e9, 16: 38e9}
+_FLOPS = 41e9
+
+
+def wobble(*key):
+    """Return a number in -1..1 that depends on the key only."""
+    return hashlib.sha256(repr(key).encode()).digest()[0] / 127.5 - 1
+
+
+def runtime(backend):
+    """Return omp, tbb or serial."""
+    ending = backend.rsplit("_", 1)[-1]
+    return ending if ending in ("omp", "tbb") else "serial"
+
+
+def family(backend):
+    """Return the algorithm without its runtime."""
+    return backend.replace("_omp", "").replace("_tbb", "")
+
+
+def folding(dx, m):
+    """Return the distance tests with folding / those without."""
+    particles = sum(WORLDS[dx][:2])
+    return 1 + 0.63 * (particles / 2014966) * 8.0 ** (6 - m)
+
+
+def sum_time(state, backend, m, threads, dx=0.00594, granularity=None, slower=1.0):
+    """Return an invented summation time in seconds."""
+    serial = 0.02 if runtime(backend) == "omp" else 0.035
+    scale = serial + (1 - serial) / threads
+    fold = 0.55 + 0.45 * folding(dx, m) + 0.05 * max(0, m - 7)
+    factor = {"rest": 1.0, "collapsed": 1.35}.get(state, 1.0)
+    chunk = (granularity or "").partition(":")[2]
+    grain = 1 + 0.004 * abs(int(chunk).bit_length() - 6) ** 2 if chunk else 1.0
+    grain *= 1.09 if (granularity or "").startswith("static") else 1.0
+    return (1e-9 * _NS[family(backend)] * WORLDS[dx][2] * fold * scale * factor * grain * slower
+            * (1 + 0.02 * wobble(backend, m, threads, dx)))
+
+
+def bandwidth(threads):
+    """Return the invented bytes per second of so many threads."""
+    return _BANDWIDTH[threads]
+
+
+def peak(threads, precision="double"):
+    """Return the invented flops per second of so many threads."""
+    return _FLOPS * threads * 0.985 ** (threads - 1) * (2 if precision == "float" else 1)
