@@ -12,7 +12,7 @@ namespace {
 
 struct collected {
   point what;
-  std::map<int, std::vector<const sample*>> repetitions;
+  std::map<int, std::vector<const sample*>> rounds;
   std::optional<work_row> work;
   std::string error;
 };
@@ -25,7 +25,7 @@ std::vector<collected> by_point(const std::vector<sample>& samples) {
     if (s.error) {
       at->error = *s.error;
     } else {
-      at->repetitions[s.repetition].push_back(&s);
+      at->rounds[s.round].push_back(&s);
       if (s.work) at->work = s.work;
     }
   }
@@ -34,7 +34,7 @@ std::vector<collected> by_point(const std::vector<sample>& samples) {
 
 double median_ms(const collected& c, std::optional<double> phases::*phase) {
   std::vector<double> means;
-  for (const auto& [repetition, steps] : c.repetitions) {
+  for (const auto& [round, steps] : c.rounds) {
     double sum = 0;
     for (const sample* s : steps) sum += ((*s->phases).*phase).value_or(0);
     means.push_back(1e3 * sum / static_cast<double>(steps.size()));
@@ -45,12 +45,13 @@ double median_ms(const collected& c, std::optional<double> phases::*phase) {
 }  // namespace
 
 std::string words_of(const point& p) {
-  return fmt::format("{}, {}, {}, {}, order {}", p.precision, p.interaction, p.smoothing, p.integrator, p.order);
+  return fmt::format("{}, {}, {}, {}, order {}{}", p.precision, p.interaction, p.smoothing, p.integrator, p.order,
+                     p.granularity == "none" ? "" : ", " + p.granularity);
 }
 
 std::string results_table(const std::vector<sample>& samples) {
   std::string text = fmt::format("{:<16}{:>10}{:>11}{:>4}{:>4}{:>5}{:>10}{:>10}{:>10}{:>10}{:>9}\n", "backend", "dx",
-                                 "state", "M", "thr", "rep", "index ms", "prep ms", "sum ms", "total ms", "ns/pair");
+                                 "state", "M", "thr", "rnd", "index ms", "prep ms", "sum ms", "total ms", "ns/pair");
   std::vector<collected> all = by_point(samples);
   std::map<std::string, std::size_t> first;  // points with the same words stand together, in the order measured
   for (const collected& c : all) first.try_emplace(words_of(c.what), first.size());
@@ -62,7 +63,7 @@ std::string results_table(const std::vector<sample>& samples) {
       text += heading + "\n";
     }
     text += fmt::format("{:<16}{:>10}{:>11}{:>4}{:>4}{:>5}", c.what.backend, c.what.dx, c.what.state, c.what.M,
-                        c.what.threads, c.repetitions.size());
+                        c.what.threads, c.rounds.size());
     if (!c.error.empty()) {
       text += "  FAILED: " + c.error + "\n";
       continue;

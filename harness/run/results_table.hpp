@@ -9,7 +9,7 @@ namespace pairsum::harness {
 /// What a table leaves out of a point: "double, ferrari09, wendland_c2, euler, order lattice".
 std::string words_of(const point& p);
 
-/// The table at the end of a run: per point the medians over repetitions of the mean step, and the cost of the sum per
+/// The table at the end of a run: per point the medians over rounds of the mean step, and the cost of the sum per
 /// interacting pair; of a point that failed its verification, why. Points that differ in words_of are set apart under
 /// headings.
 std::string results_table(const std::vector<sample>& samples);

@@ -57,7 +57,7 @@ class conductor {
     if (plan_.builds == 1)
       for (const environment_row& e : so_far_->rows().environments)
         if (!same_build(e, environment_))
-          throw error(fmt::format("{} holds rows of another machine or build ({}); --fresh starts a new file",
+          throw error(fmt::format("{} holds rows of another machine or build: {}. Name another file",
                                   options.out.string(), other_build(e, environment_)));
   }
 
