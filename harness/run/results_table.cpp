@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "harness/stats/median.hpp"
 
@@ -45,24 +47,33 @@ double median_ms(const collected& c, std::optional<double> phases::*phase) {
 }  // namespace
 
 std::string words_of(const point& p) {
-  return fmt::format("{}, {}, {}, {}, order {}{}", p.precision, p.interaction, p.smoothing, p.integrator, p.order,
-                     p.granularity == "none" ? "" : ", " + p.granularity);
+  return fmt::format("{}, {}, {}, {}, order {}", p.precision, p.interaction, p.smoothing, p.integrator, p.order);
 }
 
 std::string results_table(const std::vector<sample>& samples) {
-  std::string text = fmt::format("{:<16}{:>10}{:>11}{:>4}{:>4}{:>5}{:>10}{:>10}{:>10}{:>10}{:>9}\n", "backend", "dx",
-                                 "state", "M", "thr", "rnd", "index ms", "prep ms", "sum ms", "total ms", "ns/pair");
   std::vector<collected> all = by_point(samples);
-  std::map<std::string, std::size_t> first;  // points with the same words stand together, in the order measured
-  for (const collected& c : all) first.try_emplace(words_of(c.what), first.size());
-  std::ranges::stable_sort(all, {}, [&](const collected& c) { return first.at(words_of(c.what)); });
+  std::ranges::sort(all, {}, [](const collected& c) {
+    const point& p = c.what;
+    return std::tuple(words_of(p), p.dx, p.state, p.backend, p.granularity, p.M, p.threads);
+  });
+  std::map<std::string, std::set<std::string>> granularities;
+  for (const collected& c : all) granularities[c.what.backend].insert(c.what.granularity);
+  const auto name = [&](const point& p) {
+    return granularities.at(p.backend).size() > 1 ? p.backend + " " + p.granularity : p.backend;
+  };
+  std::size_t width = 16;
+  for (const collected& c : all) width = std::max(width, name(c.what).size() + 1);
+  std::string text =
+      fmt::format("{:<{}}{:>10}{:>11}{:>4}{:>4}{:>7}{:>10}{:>10}{:>10}{:>10}{:>9}\n", "backend", width, "dx", "state",
+                  "M", "thr", "rounds", "index ms", "prep ms", "sum ms", "total ms", "ns/pair");
+  const bool headings = !all.empty() && words_of(all.front().what) != words_of(all.back().what);
   std::string heading;
   for (const collected& c : all) {
-    if (first.size() > 1 && words_of(c.what) != heading) {
+    if (headings && words_of(c.what) != heading) {
       heading = words_of(c.what);
       text += heading + "\n";
     }
-    text += fmt::format("{:<16}{:>10}{:>11}{:>4}{:>4}{:>5}", c.what.backend, c.what.dx, c.what.state, c.what.M,
+    text += fmt::format("{:<{}}{:>10}{:>11}{:>4}{:>4}{:>7}", name(c.what), width, c.what.dx, c.what.state, c.what.M,
                         c.what.threads, c.rounds.size());
     if (!c.error.empty()) {
       text += "  FAILED: " + c.error + "\n";
