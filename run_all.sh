@@ -57,11 +57,11 @@ done
 if $quick; then
   limit=${limit:-120} reserve=20 least=20 # seconds: for tables, figures and page; for the first study in any case
   memory_mb=1000 disk_mb=1000
-  study=quick
+  study="quick"
 else
   limit=${limit:-900} reserve=60 least=240
   memory_mb=2500 disk_mb=1000
-  study=talk
+  study="talk"
 fi
 program=build/study/bin/pairsum
 
@@ -146,9 +146,9 @@ heading "measure: the study $study"
 left=$((deadline - SECONDS))
 ((left >= least)) || left=$least # at least one round, however slow the build
 if $quick; then
-  measure $study $((left - left / 20)) "$left"
+  measure "$study" $((left - left / 20)) "$left"
 else
-  measure $study $((left * 3 / 4)) "$left"
+  measure "$study" $((left * 3 / 4)) "$left"
   heading "measure: the study m_sweep"
   left=$((deadline - SECONDS)) least=75 # every point verified, one round
   if ((left < least)); then
