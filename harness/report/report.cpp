@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "harness/report/summary.hpp"
 #include "harness/report/tables.hpp"
+#include "harness/report/whole_file.hpp"
 #include "harness/rows/reader.hpp"
 
 namespace pairsum::harness {
@@ -42,10 +43,17 @@ std::string make_report(const std::vector<std::filesystem::path>& rows_files_or_
     files.push_back(read_rows(path));
     any = any || !files.back().valid_samples().empty();
   }
-  if (!any) throw error("there are no samples in the rows, or all of their rounds are void");
+  if (!any)
+    throw error("there is no finished round in the rows; a study that was cut goes on when it is started again");
   const nlohmann::json summary = build_summary(files, options.allow_mixed);
-  write_summary(summary, options.summary_path);
-  return print_tables(summary);
+  const std::string text = print_tables(summary);
+  write_whole_file(summary.dump(1) + "\n", options.folder / "summary.json");
+  write_whole_file(text, options.folder / "tables.txt");
+  write_whole_file(print_markdown(summary), options.folder / "tables.md");
+  for (const auto& item : summary.items())
+    if (item.value().is_array() && !item.value().empty() && item.value().front().is_object())
+      write_whole_file(print_csv(item.value()), options.folder / "csv" / (item.key() + ".csv"));
+  return text;
 }
 
 }  // namespace pairsum::harness
