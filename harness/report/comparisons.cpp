@@ -43,6 +43,13 @@ class judged_entries {
     entries_.push_back(std::move(entry));
     ratios_.push_back(ratio);
   }
+  /// An entry whose `ratio` is that of the best M's step time over its own; written as "over_best", the other way
+  /// round.
+  void add_judged_only(json entry, const ratio_estimate& ratio) {
+    if (ratio.value > 0) entry["over_best"] = 1 / ratio.value;
+    entries_.push_back(std::move(entry));
+    ratios_.push_back(ratio);
+  }
   /// With the verdicts after Holm's correction.
   json judged() && {
     const std::vector<ratio_verdict> verdicts = verdicts_of(ratios_);
@@ -226,8 +233,25 @@ json collision_share(const measured_point& p) {
 
 }  // namespace
 
-json m_comparisons(const measurements& all) {
-  json entries = json::array();
+namespace {
+
+/// Of the points that differ from `p` in M alone, the one with the shortest step.
+const measured_point* best_M(const measurements& all, const measured_point& p) {
+  const measured_point* best = nullptr;
+  for (const measured_point& q : all.points) {
+    point like = q.point;
+    like.M = p.point.M;
+    const auto time = median_of(q, &phases::total_s);
+    if (q.series != p.series || !(like == p.point) || !time || !(*time > 0)) continue;
+    if (best == nullptr || *time < *median_of(*best, &phases::total_s)) best = &q;
+  }
+  return best;
+}
+
+}  // namespace
+
+json m_comparisons(const measurements& all, std::vector<std::string>& caveats) {
+  judged_entries entries;
   for (const measured_point& p : all.points) {
     json entry = head(p);
     entry["backend"] = p.point.backend;
@@ -245,15 +269,23 @@ json m_comparisons(const measurements& all) {
     for (const char* key : {"cells", "cells_nonempty", "pairs_tested", "pairs_interacting"})
       entry[key] = work.value(key, json(nullptr));
     entry["useful_pair_ratio"] = useful_pair_ratio(p);
-    entries.push_back(entry);
+    const measured_point* const best = best_M(all, p);
+    entry["best_M"] = best != nullptr ? json(best->point.M) : json(nullptr);
+    ratio_estimate ratio;
+    if (best == &p) ratio.value = 1;
+    if (best != nullptr && best != &p && median_of(p, &phases::total_s).value_or(0) > 0)
+      ratio = ratio_of(all, *best, p, caveats, &phases::total_s);
+    entry["over_best"] = nullptr;
+    entries.add_judged_only(std::move(entry), ratio);
   }
+  json judged = std::move(entries).judged();
   // Neighbours differ in M.
-  std::stable_sort(entries.begin(), entries.end(), [](const json& a, const json& b) {
+  std::stable_sort(judged.begin(), judged.end(), [](const json& a, const json& b) {
     for (const char* key : {"series", "backend", "grid", "granularity", "threads"})
       if (a[key] != b[key]) return a[key] < b[key];
     return a["M"] < b["M"];
   });
-  return entries;
+  return judged;
 }
 
 }  // namespace pairsum::harness

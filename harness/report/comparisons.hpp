@@ -29,8 +29,8 @@ nlohmann::json runtime_comparisons(const measurements& all, std::vector<std::str
 /// Every point of the first build against the same of the others, if builds are what the study compares.
 nlohmann::json compiler_comparisons(const measurements& all, std::vector<std::string>& caveats);
 
-/// Time and work of every point, to be read over M.
-nlohmann::json m_comparisons(const measurements& all);
+/// Time and work of every point, to be read over M, and whether its step is slower than with the best M.
+nlohmann::json m_comparisons(const measurements& all, std::vector<std::string>& caveats);
 
 /// Pairs that interact per distance test; null if the work was not counted or nothing was tested.
 nlohmann::json useful_pair_ratio(const measured_point& point);

@@ -33,16 +33,18 @@ std::vector<std::filesystem::path> rows_paths(const std::vector<std::filesystem:
 
 }  // namespace
 
-std::string make_report(const std::vector<std::filesystem::path>& rows_files_or_folders,
-                        const report_options& options) {
+std::vector<rows_file> read_all_rows(const std::vector<std::filesystem::path>& rows_files_or_folders) {
   std::vector<rows_file> files;
   std::set<std::filesystem::path> seen;
-  bool any = false;
-  for (const std::filesystem::path& path : rows_paths(rows_files_or_folders)) {
-    if (!seen.insert(std::filesystem::weakly_canonical(path)).second) continue;
-    files.push_back(read_rows(path));
-    any = any || !files.back().valid_samples().empty();
-  }
+  for (const std::filesystem::path& path : rows_paths(rows_files_or_folders))
+    if (seen.insert(std::filesystem::weakly_canonical(path)).second) files.push_back(read_rows(path));
+  return files;
+}
+
+std::string make_report(const std::vector<std::filesystem::path>& rows_files_or_folders,
+                        const report_options& options) {
+  const std::vector<rows_file> files = read_all_rows(rows_files_or_folders);
+  const bool any = std::ranges::any_of(files, [](const rows_file& f) { return !f.valid_samples().empty(); });
   if (!any)
     throw error("there is no finished round in the rows; a study that was cut goes on when it is started again");
   const nlohmann::json summary = build_summary(files, options.allow_mixed);

@@ -4,7 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "harness/rows/reader.hpp"
+
 namespace pairsum::harness {
+
+/// The rows of files, and of every *.jsonl in folders, each file once. Throws pairsum::error with one line if there is
+/// none or one is no valid rows file.
+std::vector<rows_file> read_all_rows(const std::vector<std::filesystem::path>& rows_files_or_folders);
 
 struct report_options {
   std::filesystem::path folder;  ///< where the files go

@@ -170,7 +170,7 @@ json build_summary(const measurements& all) {
   summary["algorithm_speedup"] = algorithm_speedups(all, caveats);
   summary["runtime_comparison"] = runtime_comparisons(all, caveats);
   summary["compiler_comparison"] = compiler_comparisons(all, caveats);
-  summary["m_comparison"] = m_comparisons(all);
+  summary["m_comparison"] = m_comparisons(all, caveats);
   summary["self_test"] = self_tests(all, caveats);
   summary["answer"] = answer(all);
   summary["questions"] = questions(summary);
