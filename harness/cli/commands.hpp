@@ -14,6 +14,7 @@ void add_list_command(CLI::App& app, action& chosen);
 void add_verify_command(CLI::App& app, action& chosen);
 void add_run_command(CLI::App& app, action& chosen);
 void add_worker_command(CLI::App& app, action& chosen);
+void add_compare_command(CLI::App& app, action& chosen);
 void add_report_command(CLI::App& app, action& chosen);
 
 }  // namespace pairsum::harness

@@ -21,6 +21,7 @@ constexpr const char* examples =
     "  pairsum run quick                                     a small study of everything, about a minute\n"
     "  pairsum run --dx 0.02 --backend naive_omp,symmetric_omp --M 6,7 --threads 1,2\n"
     "  pairsum report results/run                            tables and summary.json of what was measured\n"
+    "  pairsum compare naive_omp symmetric_omp --in results  which is faster, and how sure is that\n"
     "Exit codes: 0 fine, 1 a verification failed, 2 bad input, 130 interrupted.";
 
 int run_program(int argc, char** argv) {
@@ -34,9 +35,11 @@ int run_program(int argc, char** argv) {
   pairsum::harness::add_run_command(app, chosen);
   pairsum::harness::add_worker_command(app, chosen);
   pairsum::harness::add_report_command(app, chosen);
+  pairsum::harness::add_compare_command(app, chosen);
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> commands;
-    for (const CLI::App* c : app.get_subcommands({})) commands.push_back(c->get_name());
+    for (const CLI::App* c : app.get_subcommands({}))
+      if (!c->get_group().empty() || c->get_name() == argv[1]) commands.push_back(c->get_name());
     if (std::find(commands.begin(), commands.end(), argv[1]) == commands.end())
       throw pairsum::unknown_name("command", argv[1], commands);
   }

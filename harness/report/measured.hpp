@@ -12,11 +12,17 @@
 
 namespace pairsum::harness {
 
-/// One repetition of a point. A point that is measured twice in a round has two slots there.
-struct repetition_key {
+/// One round of a file: points measured in the same round are paired.
+struct round_key {
   std::size_t file = 0;
-  int round = 1, repetition = 1, slot = 1;
-  auto operator<=>(const repetition_key&) const = default;
+  int round = 1;
+  auto operator<=>(const round_key&) const = default;
+};
+
+/// What a round says of a point: the unit of all statistics.
+struct round_value {
+  phases mean;                      ///< over its repetitions and their steps
+  std::vector<phases> repetitions;  ///< each the mean over its steps
 };
 
 /// Points that may stand in one table: the same study, machine and build, and the same problem;
@@ -25,17 +31,21 @@ struct series {
   std::string study;
   std::size_t build = 0;    ///< which of the different machines and builds
   std::string environment;  ///< id of the first environment row of that build
+  std::string build_name;   ///< its compiler and revision
   struct point common;
 };
 
-/// All verified repetitions of one point.
+/// All finished rounds of one point.
 struct measured_point {
   struct point point;
   std::size_t series = 0;
   int cores = 1;
-  std::size_t steps = 0;                         ///< timed steps per repetition
-  std::map<repetition_key, phases> repetitions;  ///< mean over the steps
+  std::size_t steps = 0;        ///< timed steps per repetition
+  std::size_t repetitions = 0;  ///< per round, the most
+  std::map<round_key, round_value> rounds;
   std::optional<work_row> work;
+  std::optional<thread_times> busy_s, waiting_s;  ///< mean over all timed steps
+  std::optional<counters_row> counters;           ///< mean over all timed steps
   std::optional<std::uint64_t> peak_rss_bytes;
   std::string fingerprint;  ///< of the first row
 };
@@ -53,20 +63,25 @@ struct measurements {
   std::vector<std::string> sources;
   std::vector<environment_row> environments;
   std::vector<struct series> series;
+  std::vector<peak_row> peaks;  ///< the best of each environment, number of threads and precision
+  std::size_t finished_rounds = 0, void_rounds = 0;
+  std::optional<double> others_share;  ///< the largest of a finished round
+  bool compares_builds = false;        ///< different builds were measured in the same rounds
   std::vector<measured_point> points;
   std::vector<failed_point> failed;
   std::vector<std::string> caveats;
 };
 
-/// Collects the valid rows of the files. A repetition with an unverified row is left out as a
-/// whole. Throws pairsum::error with one line if the rows come from different machines or builds
-/// (host, cpu, compiler, flags, git, dirty), unless `allow_mixed`; then they form different series.
+/// Collects the rows of finished rounds. A point's round with an unverified row is left out as a whole. Throws
+/// pairsum::error with one line if the rows come from different machines or builds (host, cpu, compiler, flags, git,
+/// dirty, binding), unless these were measured in the same rounds, so that they are the factor compared, or
+/// `allow_mixed`; then they form different series.
 measurements collect(const std::vector<rows_file>& files, bool allow_mixed);
 
-/// The median over the repetitions of one phase; empty if it was not timed in all of them.
+/// The median over the rounds of one phase; empty if it was not timed in all of them.
 std::optional<double> median_of(const measured_point& point, std::optional<double> phases::*phase);
 
-/// The values of one phase, one per repetition in which it was timed.
+/// The values of one phase, one per round in which it was timed.
 std::vector<double> values_of(const measured_point& point, std::optional<double> phases::*phase);
 
 /// Backend, M and threads in one text: "symmetric_omp M=6 threads=2".

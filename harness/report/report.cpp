@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "harness/report/summary.hpp"
 #include "harness/report/tables.hpp"
+#include "harness/report/whole_file.hpp"
 #include "harness/rows/reader.hpp"
 
 namespace pairsum::harness {
@@ -32,20 +33,29 @@ std::vector<std::filesystem::path> rows_paths(const std::vector<std::filesystem:
 
 }  // namespace
 
-std::string make_report(const std::vector<std::filesystem::path>& rows_files_or_folders,
-                        const report_options& options) {
+std::vector<rows_file> read_all_rows(const std::vector<std::filesystem::path>& rows_files_or_folders) {
   std::vector<rows_file> files;
   std::set<std::filesystem::path> seen;
-  bool any = false;
-  for (const std::filesystem::path& path : rows_paths(rows_files_or_folders)) {
-    if (!seen.insert(std::filesystem::weakly_canonical(path)).second) continue;
-    files.push_back(read_rows(path));
-    any = any || !files.back().valid_samples().empty();
-  }
-  if (!any) throw error("there are no samples in the rows, or all of their rounds are void");
+  for (const std::filesystem::path& path : rows_paths(rows_files_or_folders))
+    if (seen.insert(std::filesystem::weakly_canonical(path)).second) files.push_back(read_rows(path));
+  return files;
+}
+
+std::string make_report(const std::vector<std::filesystem::path>& rows_files_or_folders,
+                        const report_options& options) {
+  const std::vector<rows_file> files = read_all_rows(rows_files_or_folders);
+  const bool any = std::ranges::any_of(files, [](const rows_file& f) { return !f.valid_samples().empty(); });
+  if (!any)
+    throw error("there is no finished round in the rows; a study that was cut goes on when it is started again");
   const nlohmann::json summary = build_summary(files, options.allow_mixed);
-  write_summary(summary, options.summary_path);
-  return print_tables(summary);
+  const std::string text = print_tables(summary);
+  write_whole_file(summary.dump(1) + "\n", options.folder / "summary.json");
+  write_whole_file(text, options.folder / "tables.txt");
+  write_whole_file(print_markdown(summary), options.folder / "tables.md");
+  for (const auto& item : summary.items())
+    if (item.value().is_array() && !item.value().empty() && item.value().front().is_object())
+      write_whole_file(print_csv(item.value()), options.folder / "csv" / (item.key() + ".csv"));
+  return text;
 }
 
 }  // namespace pairsum::harness

@@ -1,17 +1,18 @@
 #include "harness/report/summary.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
+#include "harness/report/answer.hpp"
 #include "harness/report/comparisons.hpp"
+#include "harness/report/models.hpp"
+#include "harness/report/self_tests.hpp"
 #include "harness/stats/interval.hpp"
 #include "harness/stats/median.hpp"
+#include "harness/stats/variance.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -35,14 +36,13 @@ json phase_entry(const measured_point& p, std::optional<double> phases::*phase) 
 constexpr phase_member pair_parts[] = {
     {"prepare", &phases::prepare_s}, {"zero", &phases::zero_s}, {"sum", &phases::sum_s}, {"reduce", &phases::reduce_s}};
 
-/// The median over the repetitions of the time of all parts together; empty if one of them was not
-/// timed in all repetitions.
+/// The median over the rounds of the time of all parts together; empty if one of them was not timed in all rounds.
 std::optional<double> median_of_all_parts(const measured_point& p) {
   std::vector<double> times;
-  for (const auto& entry : p.repetitions) {
+  for (const auto& entry : p.rounds) {
     double time = 0;
     for (const phase_member& part : pair_parts) {
-      const std::optional<double>& value = entry.second.*part.value;
+      const std::optional<double>& value = entry.second.mean.*part.value;
       if (!value) return std::nullopt;
       time += *value;
     }
@@ -56,12 +56,44 @@ json ns_per_pair(const measured_point& p, std::optional<double> time) {
   return *time * 1e9 / static_cast<double>(p.work->pairs_interacting);
 }
 
+json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
+/// Scatter of the summation time between and within the rounds' processes.
+json variance_entry(const measured_point& p) {
+  std::vector<std::vector<double>> groups;
+  for (const auto& [round, value] : p.rounds) {
+    std::vector<double> times;
+    for (const phases& repetition : value.repetitions)
+      if (repetition.sum_s && *repetition.sum_s > 0) times.push_back(*repetition.sum_s);
+    if (!times.empty()) groups.push_back(std::move(times));
+  }
+  if (groups.empty()) return {{"between", nullptr}, {"within", nullptr}};
+  const variance_components found = components_of_variance(groups);
+  return {{"between", or_null(found.between)}, {"within", or_null(found.within)}};
+}
+
+json passes_entry(const measured_point& p) {
+  if (!p.busy_s || !p.waiting_s) return nullptr;
+  double busy = 0, waiting = 0;
+  for (const auto& pass : *p.busy_s) busy = std::accumulate(pass.begin(), pass.end(), busy);
+  for (const auto& pass : *p.waiting_s) waiting = std::accumulate(pass.begin(), pass.end(), waiting);
+  json entry{{"busy_s", *p.busy_s}, {"barrier_wait_s", *p.waiting_s}, {"wait_share", nullptr}};
+  if (busy + waiting > 0) entry["wait_share"] = waiting / (busy + waiting);
+  return entry;
+}
+
 json point_entry(const measurements& all, const measured_point& p) {
   json entry;
   entry["point"] = p.point;
   entry["study"] = all.series[p.series].study;
   entry["series"] = p.series;
-  entry["repetitions"] = p.repetitions.size();
+  entry["rounds"] = p.rounds.size();
+  entry["repetitions"] = p.repetitions;
+  entry["round_s"] = values_of(p, &phases::sum_s);
+  entry["variance"] = variance_entry(p);
+  entry["passes"] = passes_entry(p);
+  entry["model"] = model_entry(all, p);
+  entry["counters"] = p.counters ? json(*p.counters) : json(nullptr);
   entry["steps"] = p.steps;
   for (const phase_member& phase : phase_members) entry["phases"][phase.name] = phase_entry(p, phase.value);
   entry["ns_per_pair"] = ns_per_pair(p, median_of(p, &phases::sum_s));
@@ -77,9 +109,10 @@ json point_entry(const measurements& all, const measured_point& p) {
 
 json series_entry(const series& s) {
   json entry = s.common;
-  for (const char* varied : {"backend", "grid", "M", "threads"}) entry.erase(varied);
+  for (const char* varied : {"backend", "grid", "granularity", "M", "threads"}) entry.erase(varied);
   entry["study"] = s.study;
   entry["environment"] = s.environment;
+  entry["build"] = s.build_name;
   return entry;
 }
 
@@ -99,14 +132,11 @@ std::vector<std::string> without_repeats(const std::vector<std::string>& texts) 
   return unique;
 }
 
-void write_whole(int file, const std::string& text) {
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = ::write(file, text.data() + done, text.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) throw error(std::strerror(errno));
-    done += static_cast<std::size_t>(count);
-  }
-  if (::fsync(file) != 0) throw error(std::strerror(errno));
+std::string title_of(const measurements& all) {
+  std::vector<std::string> studies, hosts;
+  for (const series& s : all.series) studies.push_back(s.study);
+  for (const environment_row& e : all.environments) hosts.push_back(e.host);
+  return join(without_repeats(studies)) + " on " + join(without_repeats(hosts));
 }
 
 }  // namespace
@@ -116,11 +146,22 @@ json build_summary(const measurements& all) {
   add_point_caveat(
       all, "more threads than cores", [](const auto& p) { return p.point.threads > p.cores; }, caveats);
   add_point_caveat(
-      all, "fewer than 6 repetitions, so no interval", [](const auto& p) { return p.repetitions.size() < 6; }, caveats);
+      all, "fewer than 6 rounds, so no interval of the median", [](const auto& p) { return p.rounds.size() < 6; },
+      caveats);
   json summary;
   summary["schema"] = summary_schema;
   summary["sources"] = all.sources;
   summary["environments"] = all.environments;
+  summary["title"] = title_of(all);
+  summary["rounds"] = {
+      {"finished", all.finished_rounds}, {"void", all.void_rounds}, {"others_share", or_null(all.others_share)}};
+  summary["peaks"] = json::array();
+  for (const peak_row& p : all.peaks)
+    summary["peaks"].push_back({{"environment", p.environment},
+                                {"threads", p.threads},
+                                {"precision", p.precision},
+                                {"bandwidth_bytes_per_s", p.bandwidth_bytes_per_s},
+                                {"flops_per_s", p.flops_per_s}});
   summary["series"] = json::array();
   for (const series& s : all.series) summary["series"].push_back(series_entry(s));
   summary["points"] = json::array();
@@ -128,7 +169,11 @@ json build_summary(const measurements& all) {
   summary["speedup"] = thread_speedups(all, caveats);
   summary["algorithm_speedup"] = algorithm_speedups(all, caveats);
   summary["runtime_comparison"] = runtime_comparisons(all, caveats);
-  summary["m_comparison"] = m_comparisons(all);
+  summary["compiler_comparison"] = compiler_comparisons(all, caveats);
+  summary["m_comparison"] = m_comparisons(all, caveats);
+  summary["self_test"] = self_tests(all, caveats);
+  summary["answer"] = answer(all);
+  summary["questions"] = questions(summary);
   summary["failed"] = json::array();
   for (const failed_point& f : all.failed) {
     summary["failed"].push_back({{"point", f.point}, {"study", f.study}, {"rows", f.rows}, {"error", f.error}});
@@ -141,28 +186,6 @@ json build_summary(const measurements& all) {
 
 json build_summary(const std::vector<rows_file>& files, bool allow_mixed) {
   return build_summary(collect(files, allow_mixed));
-}
-
-void write_summary(const json& summary, const std::filesystem::path& path) {
-  const std::string text = summary.dump(1) + "\n";
-  const std::filesystem::path temporary = path.string() + "." + std::to_string(::getpid()) + ".tmp";
-  int file = -1;
-  try {
-    std::error_code code;
-    if (!path.parent_path().empty()) std::filesystem::create_directories(path.parent_path(), code);
-    if (code) throw error("folder " + path.parent_path().string() + ": " + code.message());
-    file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (file < 0) throw error(std::strerror(errno));
-    write_whole(file, text);
-    if (::rename(temporary.c_str(), path.c_str()) != 0) throw error(std::strerror(errno));
-    ::close(file);
-  } catch (const error& e) {
-    if (file >= 0) {
-      ::close(file);
-      ::unlink(temporary.c_str());
-    }
-    throw error("cannot write the summary to " + path.string() + ": " + e.what());
-  }
 }
 
 }  // namespace pairsum::harness

@@ -5,10 +5,17 @@
 
 namespace pairsum::harness {
 
-/// All tables of a summary as text of at most 120 columns (longer only if names are): per series
-/// the summation times, algorithm speedups, OpenMP against TBB, the comparison over M and the
-/// phases; then the failed points and the caveats. Every table has a line above it that says what
-/// it shows.
+/// The answer and the questions in words, then all tables of a summary as text of at most 120 columns (longer only if
+/// names are): per series the summation times, algorithm speedups, OpenMP against TBB, the comparison over M, the
+/// bounds and the phases; then builds, the self-test, the failed points and the caveats. Every table has a line above
+/// it that says what it shows.
 std::string print_tables(const nlohmann::json& summary);
+
+/// The same as Markdown.
+std::string print_markdown(const nlohmann::json& summary);
+
+/// An array of objects of the summary as comma-separated values (RFC 4180): a column per key, nested keys joined with
+/// points; lists are left out.
+std::string print_csv(const nlohmann::json& entries);
 
 }  // namespace pairsum::harness

@@ -34,6 +34,23 @@ std::string text_table::text() const {
   return out;
 }
 
+std::string text_table::markdown() const {
+  std::string out;
+  const auto put = [&](const std::vector<std::string>& row) {
+    for (const std::string& cell : row) {
+      out += "| ";
+      for (const char c : cell) out += c == '|' ? std::string("\\|") : std::string(1, c);
+      out += " ";
+    }
+    out += "|\n";
+  };
+  put(header_);
+  for (std::size_t i = 0; i < header_.size(); ++i) out += i < left_ ? "|---" : "|---:";
+  out += "|\n";
+  for (const auto& row : rows_) put(row);
+  return out;
+}
+
 std::string wrapped(const std::string& text, std::size_t width) {
   const std::string indent = "    ";
   std::string out, line, word;

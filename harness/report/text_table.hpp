@@ -16,6 +16,8 @@ class text_table {
   bool empty() const { return rows_.empty(); }
   /// The lines, each with a newline and without trailing spaces.
   std::string text() const;
+  /// The same as a table of Markdown.
+  std::string markdown() const;
 
  private:
   std::vector<std::string> header_;

@@ -1,0 +1,52 @@
+#include "harness/report/builds.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace pairsum::harness {
+namespace {
+
+auto identity(const environment_row& e) {
+  return std::tie(e.host, e.cpu, e.compiler, e.flags, e.git, e.dirty, e.binding);
+}
+
+std::string revision(const environment_row& e) { return e.git + (e.dirty ? " with uncommitted changes" : ""); }
+
+template <class Get>
+void add_difference(std::string& text, const std::vector<environment_row>& known, const char* name, Get get) {
+  std::set<std::string> values;
+  for (const environment_row& e : known) values.insert(get(e));
+  if (values.size() < 2) return;
+  std::string list;
+  for (const std::string& value : values) list += (list.empty() ? "" : ", ") + value;
+  text += (text.empty() ? "" : ", ") + std::string(name) + " (" + list + ")";
+}
+
+}  // namespace
+
+std::size_t builds::add(const environment_row& e) {
+  for (std::size_t i = 0; i < known_.size(); ++i)
+    if (identity(known_[i]) == identity(e)) return i;
+  known_.push_back(e);
+  return known_.size() - 1;
+}
+
+void builds::measured_together(std::size_t a, std::size_t b) {
+  if (a == b) return;
+  if (std::min(a, b) == 0) together_.insert(std::max(a, b));
+}
+
+std::string builds::differences() const {
+  std::string text;
+  add_difference(text, known_, "host", [](const environment_row& e) { return e.host; });
+  add_difference(text, known_, "cpu", [](const environment_row& e) { return e.cpu; });
+  add_difference(text, known_, "compiler", [](const environment_row& e) { return e.compiler; });
+  add_difference(text, known_, "flags", [](const environment_row& e) { return e.flags; });
+  add_difference(text, known_, "git", revision);
+  add_difference(text, known_, "binding", [](const environment_row& e) { return e.binding; });
+  return text;
+}
+
+std::string build_name(const environment_row& e) { return e.compiler + ", git " + revision(e); }
+
+}  // namespace pairsum::harness

@@ -1,0 +1,194 @@
+#include "harness/report/compare_sides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/names.hpp"
+#include "harness/report/builds.hpp"
+#include "harness/report/comparisons.hpp"
+#include "harness/report/report.hpp"
+#include "harness/report/text_table.hpp"
+#include "harness/rows/reader.hpp"
+#include "harness/stats/holm.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+enum class kind { backends, files, revisions };
+
+bool is_path(const std::string& word) {
+  std::error_code code;
+  return std::filesystem::exists(word, code);
+}
+
+std::set<std::string> backends_in(const std::vector<rows_file>& files) {
+  std::set<std::string> names;
+  for (const rows_file& f : files)
+    for (const sample& s : f.samples) names.insert(s.point.backend);
+  return names;
+}
+
+bool is_revision(const std::string& word, const environment_row& e) {
+  return word.size() >= 4 && (e.git.starts_with(word) || (!e.git.empty() && word.starts_with(e.git)));
+}
+
+std::set<std::string> revisions_in(const std::vector<rows_file>& files) {
+  std::set<std::string> names;
+  for (const rows_file& f : files)
+    for (const environment_row& e : f.environments) names.insert(e.git);
+  return names;
+}
+
+/// The rows that one revision wrote.
+std::vector<rows_file> of_revision(std::vector<rows_file> files, const std::string& revision) {
+  for (rows_file& f : files) {
+    std::set<std::string> own;
+    for (const environment_row& e : f.environments)
+      if (is_revision(revision, e)) own.insert(e.environment);
+    std::erase_if(f.samples, [&](const sample& s) { return !own.contains(s.environment); });
+    std::erase_if(f.environments, [&](const environment_row& e) { return !own.contains(e.environment); });
+    std::erase_if(f.peaks, [&](const peak_row& p) { return !own.contains(p.environment); });
+  }
+  return files;
+}
+
+kind kind_of(const compare_request& r, const std::vector<rows_file>& files) {
+  if (files.empty()) return kind::files;
+  const auto backends = backends_in(files);
+  if (backends.contains(r.a) && backends.contains(r.b)) return kind::backends;
+  const auto known = [&](const std::string& word) {
+    return std::ranges::any_of(files, [&](const rows_file& f) {
+      return std::ranges::any_of(f.environments, [&](const environment_row& e) { return is_revision(word, e); });
+    });
+  };
+  if (known(r.a) && known(r.b)) return kind::revisions;
+  const std::string& wrong = backends.contains(r.a) || known(r.a) ? r.b : r.a;
+  throw error(
+      fmt::format("\"{}\" is neither a backend nor a revision of these rows; there are the backends {} and the "
+                  "revisions {}",
+                  wrong, join(backends), join(revisions_in(files))));
+}
+
+/// What else differs between the two sides; what must not be mixed is refused.
+std::string differences(const compare_request& r, const measurements& a, const measurements& b) {
+  builds both;
+  std::set<std::string> hosts;
+  bool dirty = false;
+  for (const measurements* m : {&a, &b})
+    for (const environment_row& e : m->environments) {
+      both.add(e);
+      hosts.insert(e.host + ", " + e.cpu);
+      dirty = dirty || e.dirty;
+    }
+  const std::string text = both.differences();
+  if (r.allow_mixed) return text;
+  if (hosts.size() > 1)
+    throw error("the two were measured on different machines (" + text +
+                "), which says nothing of the programs; --allow-mixed compares them nevertheless");
+  if (dirty)
+    throw error("rows were built from a tree with uncommitted changes (" + text +
+                "), which no revision names; --allow-mixed compares them nevertheless");
+  return text;
+}
+
+struct compared {
+  const measured_point *a, *b;
+  ratio_estimate ratio;
+};
+
+point without_backend(point p) {
+  p.backend.clear();
+  p.granularity.clear();
+  return p;
+}
+
+/// Every point of side a with its counterpart on side b.
+std::vector<compared> pairs_of(const compare_request& r, kind what, const measurements& a, const measurements& b) {
+  std::vector<compared> found;
+  std::vector<std::string> unsaid;  // that files are not paired is said once
+  const auto timed = [&](const measured_point& p) { return median_of(p, r.phase).value_or(0) > 0; };
+  for (const measured_point& p : a.points)
+    for (const measured_point& q : b.points) {
+      if (!timed(p) || !timed(q) || a.series[p.series].study != b.series[q.series].study) continue;
+      const bool same = what == kind::backends
+                            ? p.series == q.series && p.point.backend == r.a && q.point.backend == r.b &&
+                                  without_backend(p.point) == without_backend(q.point)
+                            : p.point == q.point;
+      if (!same) continue;
+      found.push_back({&p, &q,
+                       what == kind::backends ? ratio_of(a, p, q, unsaid, r.phase)
+                                              : unpaired_ratio(values_of(p, r.phase), values_of(q, r.phase))});
+    }
+  return found;
+}
+
+std::string place(const point& p, kind what) {
+  return fmt::format("{}{} {} dx={} M={} threads={}", what == kind::backends ? "" : p.backend + " ", p.case_name,
+                     p.state, p.dx, p.M, p.threads);
+}
+
+std::string table_of(const compare_request& r, kind what, const std::vector<compared>& pairs) {
+  std::vector<ratio_estimate> ratios;
+  for (const compared& c : pairs) ratios.push_back(c.ratio);
+  const std::vector<ratio_verdict> verdicts = verdicts_of(ratios);
+  text_table table({"point", "rounds", "A ms", "B ms", "A/B", "[low, high]", "B is"}, 1);
+  int faster = 0, slower = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const compared& c = pairs[k];
+    faster += verdicts[k] == ratio_verdict::faster;
+    slower += verdicts[k] == ratio_verdict::slower;
+    table.add({place(c.a->point, what), fmt::format("{}/{}", c.a->rounds.size(), c.b->rounds.size()),
+               ms(*median_of(*c.a, r.phase)), ms(*median_of(*c.b, r.phase)), fmt::format("{:.3f}", c.ratio.value),
+               c.ratio.bounds ? fmt::format("[{:.3f}, {:.3f}]", c.ratio.bounds->low, c.ratio.bounds->high)
+                              : std::string("too few rounds"),
+               std::string(word_of(verdicts[k]))});
+  }
+  return table.text() + fmt::format(
+                            "Of {} comparison{} B is faster in {}, slower in {}, no difference is resolved in {} "
+                            "(95 % confidence over all of them).\n",
+                            pairs.size(), pairs.size() == 1 ? "" : "s", faster, slower,
+                            static_cast<int>(pairs.size()) - faster - slower);
+}
+
+}  // namespace
+
+std::string compare_sides(const compare_request& r) {
+  if (r.a == r.b) throw error("a comparison needs two different things, not \"" + r.a + "\" twice");
+  const bool files = is_path(r.a) && is_path(r.b);
+  if (!files && is_path(r.a) != is_path(r.b))
+    throw error(
+        fmt::format("\"{}\" is a file, \"{}\" is none; a comparison takes two backends, two rows files or two "
+                    "revisions",
+                    is_path(r.a) ? r.a : r.b, is_path(r.a) ? r.b : r.a));
+  const std::vector<rows_file> rows = files ? std::vector<rows_file>{} : read_all_rows(r.inputs);
+  const kind what = kind_of(r, rows);
+  measurements a, b;
+  if (what == kind::files) {
+    a = collect(read_all_rows({r.a}), false);
+    b = collect(read_all_rows({r.b}), false);
+  } else if (what == kind::revisions) {
+    a = collect(of_revision(rows, r.a), false);
+    b = collect(of_revision(rows, r.b), false);
+  } else {
+    a = collect(rows, r.allow_mixed);
+  }
+  const measurements& other = what == kind::backends ? a : b;
+  const std::string differ = what == kind::backends ? "" : differences(r, a, other);
+  const std::vector<compared> pairs = pairs_of(r, what, a, other);
+  if (pairs.empty())
+    throw error(fmt::format("\"{}\" and \"{}\" have no point in common (same study, case, dx, M, threads{})", r.a, r.b,
+                            what == kind::backends ? "" : ", backend"));
+  std::string text = fmt::format("A: {}\nB: {}\n", r.a, r.b);
+  if (what != kind::backends)
+    text += wrapped("measured apart, so not paired: what disturbed one of them alone is in the ratio" +
+                    (differ.empty() ? "" : "; they differ in " + differ));
+  for (const measurements* m : {&a, &b})
+    for (const failed_point& f : m->failed)
+      text += fmt::format("left out, not verified: {}: {}\n", label(f.point), f.error);
+  return text + table_of(r, what, pairs);
+}
+
+}  // namespace pairsum::harness

@@ -1,0 +1,223 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "harness/report/answer.hpp"
+#include "harness/report/text_table.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+using nlohmann::json;
+
+/// The entries of a table that belong to one series.
+std::vector<json> of_series(const json& summary, const char* table, std::size_t series) {
+  std::vector<json> found;
+  for (const json& e : summary.at(table))
+    if (e.at("series") == series) found.push_back(e);
+  return found;
+}
+
+int most_threads(const std::vector<json>& entries) {
+  int most = 0;
+  for (const json& e : entries) most = std::max(most, e.at("threads").get<int>());
+  return most;
+}
+
+std::string word(const json& value) { return value.get<std::string>(); }
+
+std::string runtime_word(const json& e) {
+  const std::string r = word(e.at("runtime"));
+  return r == "omp" ? "OpenMP" : r == "tbb" ? "oneTBB" : "serial";
+}
+
+std::string with_bounds(const json& e, const char* key) {
+  const double value = e.at(key);
+  if (e.at("low").is_null()) return fmt::format("{:.2f} (no interval)", value);
+  return fmt::format("{:.2f} [{:.2f}, {:.2f}]", value, e.at("low").get<double>(), e.at("high").get<double>());
+}
+
+std::string list_of(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& t : texts) all += (all.empty() ? "" : ", ") + t;
+  return all;
+}
+
+std::string threads_text(int n) { return fmt::format("{} thread{}", n, n == 1 ? "" : "s"); }
+
+/// Is the symmetric sum twice as fast? By the entries at equal M and the talk's second definition, on the most threads.
+void ask_twice(const json& summary, std::size_t series, json& out) {
+  std::vector<json> entries = of_series(summary, "algorithm_speedup", series);
+  const int threads = most_threads(entries);
+  std::erase_if(entries, [&](const json& e) { return e.at("threads") != threads; });
+  if (entries.empty()) return;
+  double least = 1e300, most = 0;
+  std::vector<std::string> texts;
+  for (const json& e : entries) {
+    least = std::min(least, e.at("speedup").get<double>());
+    most = std::max(most, e.at("speedup").get<double>());
+    texts.push_back(fmt::format("{} over naive M = {} / symmetric M = {}: {}", runtime_word(e),
+                                e.at("base_M").get<int>(), e.at("M").get<int>(), with_bounds(e, "speedup")));
+  }
+  const std::string verdict = least >= 1.95 ? "Yes"
+                              : most < 1.05 ? "No, it is not faster"
+                                            : fmt::format("No, {:.2f} to {:.2f} times", least, most);
+  const bool yes = least >= 1.95;
+  out.push_back(
+      {{"question", "Is the symmetric sum twice as fast here?"},
+       {"answer", fmt::format("{}, on {}: {}. Each pair is computed once instead of twice, but its distance is "
+                              "tested and both particles are written{}.",
+                              verdict, threads_text(threads), list_of(texts),
+                              yes ? "" : ", so half the evaluations is not half the time")}});
+}
+
+/// Does it scale as well as the naive sum, and as the machine?
+void ask_scaling(const json& summary, std::size_t series, json& out) {
+  std::vector<json> entries = of_series(summary, "speedup", series);
+  const int threads = most_threads(entries);
+  std::erase_if(entries, [&](const json& e) { return e.at("threads") != threads; });
+  if (entries.empty() || threads < 2) return;
+  std::map<bool, std::vector<double>> by_kind;
+  std::vector<std::string> texts;
+  json machine = nullptr;
+  for (const json& e : entries) {
+    const std::string backend = word(e.at("backend"));
+    texts.push_back(fmt::format("{} M = {}: {}", backend, e.at("M").get<int>(), with_bounds(e, "speedup")));
+    if (backend.starts_with("naive")) by_kind[false].push_back(e.at("speedup"));
+    if (backend.starts_with("symmetric")) by_kind[true].push_back(e.at("speedup"));
+    machine = e.at("machine_flops_scaling");
+  }
+  if (by_kind.size() < 2) return;
+  const auto range = [](std::vector<double> v) {
+    std::ranges::sort(v);
+    return fmt::format("{:.2f} to {:.2f}", v.front(), v.back());
+  };
+  double waiting = 0;
+  int waits = 0;
+  for (const json& p : of_series(summary, "points", series))
+    if (word(p.at("point").at("backend")).starts_with("symmetric_") && p.at("point").at("threads") == threads &&
+        p.at("passes").is_object() && p.at("passes").at("wait_share").is_number()) {
+      waiting += p.at("passes").at("wait_share").get<double>();
+      ++waits;
+    }
+  std::string text = fmt::format("On {} naive sums are {} times as fast as on one, symmetric sums {} times ({}).",
+                                 threads_text(threads), range(by_kind[false]), range(by_kind[true]), list_of(texts));
+  if (machine.is_number())
+    text += fmt::format(" The machine itself does {:.2f} times as many multiply-adds.", machine.get<double>());
+  if (waits > 0)
+    text += fmt::format(" In the symmetric passes threads spend {:.1f} % of the time waiting at barriers.",
+                        100 * waiting / waits);
+  out.push_back({{"question", "Does it scale as well?"}, {"answer", text}});
+}
+
+/// "M = 7 (6.94 ms a step; M = 6 takes 1.09 times as long)", or which cannot be told apart.
+std::string best_of(const std::map<int, json>& by_M) {
+  const int best = by_M.begin()->second.at("best_M");
+  std::vector<std::string> slower, tied;
+  for (const auto& [M, e] : by_M) {
+    if (M == best) continue;
+    if (e.at("verdict") == "slower")
+      slower.push_back(fmt::format("M = {} takes {:.2f} times as long", M, e.at("over_best").get<double>()));
+    else
+      tied.push_back(fmt::format("{}", M));
+  }
+  std::string text = fmt::format("M = {} ({} ms a step", best, ms(by_M.at(best).at("total_s")));
+  if (!slower.empty()) text += "; " + list_of(slower);
+  if (!tied.empty()) text += fmt::format("; no difference resolved from M = {}", list_of(tied));
+  return text + ")";
+}
+
+/// What M does to the work: "M = 6: 10284 cells with particles, 19 % of the distance tests folded".
+std::string work_over_M(const std::map<int, json>& by_M) {
+  std::vector<std::string> texts;
+  for (const auto& [M, e] : by_M)
+    if (e.at("cells_nonempty").is_number() && e.at("collision_share").is_number())
+      texts.push_back(fmt::format("M = {}: {:.0f} % in {} cells", M, 100 * e.at("collision_share").get<double>(),
+                                  e.at("cells_nonempty").get<std::uint64_t>()));
+  return list_of(texts);
+}
+
+/// Which M for which algorithm, and why.
+void ask_M(const json& summary, std::size_t series, json& out) {
+  std::map<std::string, std::map<int, json>> by_backend;  // at its most threads
+  for (const json& e : of_series(summary, "m_comparison", series)) {
+    if (!e.at("best_M").is_number()) continue;
+    auto& by_M = by_backend[word(e.at("backend"))];
+    const int M = e.at("M");
+    if (!by_M.contains(M) || by_M[M].at("threads") < e.at("threads")) by_M[M] = e;
+  }
+  std::vector<std::string> texts;
+  std::map<bool, std::string> work;  // of the symmetric sums, of the gather
+  for (const auto& [backend, by_M] : by_backend) {
+    if (by_M.size() < 2) continue;
+    texts.push_back(backend + " " + best_of(by_M));
+    if (backend.starts_with("naive") || backend.starts_with("symmetric"))
+      work.try_emplace(backend.starts_with("symmetric"), work_over_M(by_M));
+  }
+  if (texts.empty()) return;
+  std::string why;
+  for (const auto& [symmetric, text] : work)
+    if (!text.empty()) why += fmt::format(" {} {}.", symmetric ? "Of the symmetric sums:" : "Of the gather:", text);
+  out.push_back(
+      {{"question", "Which M for which algorithm, and why?"},
+       {"answer",
+        fmt::format(
+            "{}. A smaller M folds more cells together, and distances are tested in vain (share of the tests, and "
+            "cells with particles):{} A larger one costs nothing in the sweep, because only cells that hold "
+            "particles are visited.",
+            list_of(texts), why)}});
+}
+
+void ask_runtime(const json& summary, std::size_t series, json& out) {
+  const std::vector<json> entries = of_series(summary, "runtime_comparison", series);
+  if (entries.empty()) return;
+  int openmp = 0, tbb = 0, open = 0;
+  double least = 1e300, most = 0;
+  for (const json& e : entries) {
+    const std::string verdict = word(e.at("verdict"));
+    ++(verdict == "faster" ? tbb : verdict == "slower" ? openmp : open);
+    least = std::min(least, e.at("ratio").get<double>());
+    most = std::max(most, e.at("ratio").get<double>());
+  }
+  out.push_back(
+      {{"question", "OpenMP or oneTBB?"},
+       {"answer", fmt::format("Of {} comparisons oneTBB is faster in {}, OpenMP in {}, no difference is resolved "
+                              "in {}; OpenMP's time is {:.3f} to {:.3f} of oneTBB's.",
+                              entries.size(), tbb, openmp, open, least, most)}});
+}
+
+void ask_bound(const json& summary, std::size_t series, json& out) {
+  const json* best = nullptr;
+  for (const json& p : summary.at("points")) {
+    if (p.at("series") != series || !p.at("model").is_object()) continue;
+    if (best == nullptr || p.at("model").at("share_of_bound") > best->at("model").at("share_of_bound")) best = &p;
+  }
+  if (best == nullptr) return;
+  const json& model = best->at("model");
+  out.push_back(
+      {{"question", "How far is that from what the machine can do?"},
+       {"answer",
+        fmt::format("The nearest is {} with M = {} and {}: {:.1f} % of its bound of {} ms, which {} sets.",
+                    word(best->at("point").at("backend")), best->at("point").at("M").get<int>(),
+                    threads_text(best->at("point").at("threads")), 100 * model.at("share_of_bound").get<double>(),
+                    ms(model.at("bound_s")), model.at("limited_by") == "flops" ? "arithmetic" : "memory bandwidth")}});
+}
+
+}  // namespace
+
+json questions(const json& summary) {
+  json out = json::array();
+  const json& answer = summary.at("answer");
+  if (!answer.is_object()) return out;
+  const std::size_t series = answer.at("series");
+  ask_twice(summary, series, out);
+  ask_scaling(summary, series, out);
+  ask_M(summary, series, out);
+  ask_runtime(summary, series, out);
+  ask_bound(summary, series, out);
+  return out;
+}
+
+}  // namespace pairsum::harness
