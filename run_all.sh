@@ -55,11 +55,11 @@ done
 
 # ---- what differs between the full and the quick run
 if $quick; then
-  limit=${limit:-120} reserve=20 least=20 # seconds: for tables, figures and page; for the first study in any case
+  limit=${limit:-120} reserve=30 least=20 # seconds: for tables, figures and page; for the first study in any case
   memory_mb=1000 disk_mb=1000
   study="quick"
 else
-  limit=${limit:-900} reserve=60 least=240
+  limit=${limit:-900} reserve=75 least=240
   memory_mb=2500 disk_mb=1000
   study="talk"
 fi
