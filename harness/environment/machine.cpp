@@ -45,6 +45,16 @@ int usable_cores() {
   return cores;
 }
 
+int numa_nodes() {
+  hwloc_topology_t topology;
+  if (hwloc_topology_init(&topology) != 0) return 1;
+  int nodes = 1;
+  if (hwloc_topology_load(topology) == 0)
+    nodes = std::max(1, hwloc_bitmap_weight(hwloc_topology_get_allowed_nodeset(topology)));
+  hwloc_topology_destroy(topology);
+  return nodes;
+}
+
 machine describe_machine() {
   machine m;
   char host[256] = "unknown";

@@ -16,6 +16,9 @@ struct machine {
 
 machine describe_machine();
 
+/// NUMA nodes this process may use; 1 if the machine does not tell.
+int numa_nodes();
+
 /// Threads the machine has for this process (hardware threads it may run on), as it was when first asked.
 int usable_cores();
 

@@ -41,10 +41,14 @@ std::string words_of(const point& p) {
   return fmt::format("{} with M = {} and {} thread{}", p.backend, p.M, p.threads, p.threads == 1 ? "" : "s");
 }
 
-std::string host_of(const measurements& all, const series& s) {
+struct host_words {
+  std::string name, description;
+};
+
+host_words host_of(const measurements& all, const series& s) {
   for (const environment_row& e : all.environments)
-    if (e.environment == s.environment) return fmt::format("{} ({}, {} cores)", e.host, e.cpu, e.cores);
-  return "this machine";
+    if (e.environment == s.environment) return {e.host, fmt::format("{} ({}, {} cores)", e.host, e.cpu, e.cores)};
+  return {"this machine", "this machine"};
 }
 
 std::string bounds_text(const ratio_estimate& r) {
@@ -114,14 +118,19 @@ json answer(const measurements& all) {
     tied.push_back(words_of(p->point));
   }
   const series& s = all.series[*main];
-  std::string text = fmt::format("On {} take {}: a whole step of {} fluid particles takes {} ms", host_of(all, s),
-                                 words_of(best.point), best.point.n_fluid, ms(time));
-  text +=
-      &base == &best
-          ? (naive.empty() ? "; no naive backend was measured beside it." : ". It is the fastest naive backend itself.")
-          : fmt::format(". It is {} as fast as {} ({} ms).", bounds_text(ratio), words_of(base.point), ms(base_time));
-  if (!tied.empty()) text += " No difference was resolved from " + first_few(tied) + ".";
-  a["text"] = text;
+  const bool alone = &base == &best;
+  a["text"] = fmt::format("On {} take {}{}.", host_of(all, s).name, words_of(best.point),
+                          alone ? "" : fmt::format(": {} as fast as {}", bounds_text(ratio), words_of(base.point)));
+  std::string details = fmt::format("On {} a whole step of {} fluid particles (dx {}, {}, {}, {}) takes {} ms",
+                                    host_of(all, s).description, best.point.n_fluid, best.point.dx, best.point.state,
+                                    best.point.precision, best.point.interaction, ms(time));
+  if (!alone)
+    details += fmt::format(", with {} {} ms.", words_of(base.point), ms(base_time));
+  else
+    details +=
+        naive.empty() ? "; no naive backend was measured beside it." : ". It is the fastest naive backend itself.";
+  if (!tied.empty()) details += " No difference was resolved from " + first_few(tied) + ".";
+  a["details"] = details;
   return a;
 }
 

@@ -58,8 +58,8 @@ void ask_twice(const json& summary, std::size_t series, json& out) {
   for (const json& e : entries) {
     least = std::min(least, e.at("speedup").get<double>());
     most = std::max(most, e.at("speedup").get<double>());
-    texts.push_back(fmt::format("{} over naive M = {} / symmetric M = {}: {}", runtime_word(e),
-                                e.at("base_M").get<int>(), e.at("M").get<int>(), with_bounds(e, "speedup")));
+    texts.push_back(fmt::format("{} naive M = {} over symmetric M = {}: {}", runtime_word(e), e.at("base_M").get<int>(),
+                                e.at("M").get<int>(), with_bounds(e, "speedup")));
   }
   const std::string verdict = least >= 1.95 ? "Yes"
                               : most < 1.05 ? "No, it is not faster"

@@ -10,7 +10,10 @@ namespace {
 
 std::string answers(const json& summary, const char* between) {
   std::string text;
-  if (summary.at("answer").is_object()) text += wrapped(summary["answer"]["text"].get<std::string>()) + between;
+  if (summary.at("answer").is_object())
+    text +=
+        wrapped(summary["answer"]["text"].get<std::string>() + " " + summary["answer"]["details"].get<std::string>()) +
+        between;
   for (const json& q : summary.at("questions"))
     text += wrapped(q["question"].get<std::string>() + " " + q["answer"].get<std::string>()) + between;
   return text;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <optional>
 
 #include "core/error.hpp"
@@ -42,6 +43,34 @@ std::string other_build(const environment_row& there, const environment_row& her
   return fmt::format("{}; this is {}", say(there), say(here));
 }
 
+/// Makes sure that the rows file can be written, before anything is measured; takes it away again if it is new and no
+/// row came.
+class writable_file {
+ public:
+  explicit writable_file(std::filesystem::path path)
+      : path_(std::move(path)), is_new_(!exists(path_)), folder_is_new_(is_new_ && !exists(folder())) {
+    row_writer try_it(path_);
+  }
+  ~writable_file() {
+    std::error_code code;
+    if (!is_new_ || std::filesystem::file_size(path_, code) != 0 || code) return;
+    std::filesystem::remove(path_, code);
+    if (folder_is_new_) std::filesystem::remove(folder(), code);  // only if nothing else is in it
+  }
+  writable_file(const writable_file&) = delete;
+  writable_file& operator=(const writable_file&) = delete;
+
+ private:
+  static bool exists(const std::filesystem::path& p) {
+    std::error_code code;
+    return std::filesystem::exists(p, code);
+  }
+  std::filesystem::path folder() const { return path_.has_parent_path() ? path_.parent_path() : "."; }
+
+  std::filesystem::path path_;
+  bool is_new_, folder_is_new_;
+};
+
 class conductor {
  public:
   conductor(const study_plan& plan, const study_options& options, const registry& all)
@@ -59,6 +88,8 @@ class conductor {
         if (!same_build(e, environment_))
           throw error(fmt::format("{} holds rows of another machine or build: {}. Name another file",
                                   options.out.string(), other_build(e, environment_)));
+    written_ = std::make_unique<writable_file>(options.out);
+    lock_.take();
   }
 
   int run() {
@@ -86,7 +117,6 @@ class conductor {
   row_writer& file() {
     if (!writer_) {
       writer_.emplace(options_.out);
-      lock_.take();
       if (!writer_->knows(environment_.environment)) writer_->write(environment_);
     }
     return *writer_;
@@ -286,6 +316,7 @@ class conductor {
   const study_options& options_;
   std::string hash_;
   environment_row environment_;
+  std::unique_ptr<writable_file> written_;
   file_lock lock_;
   shared_store store_;
   estimate estimate_;

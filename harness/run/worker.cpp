@@ -223,7 +223,9 @@ class errand_run {
 }  // namespace
 
 int carry_out(const order& o, const registry& all) {
-  keep_freed_memory();
+  // A page lies where the thread is that touched it first; one that is kept for the next point would lie where the last
+  // point's threads were, which matters with several NUMA nodes.
+  if (numa_nodes() == 1) keep_freed_memory();
   errand_run run(o, all);
   switch (o.what) {
     case errand::peaks:

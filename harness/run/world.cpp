@@ -136,7 +136,7 @@ world::result world::measure(const point& p, int steps) {
   const team t = workers.get().with(parse_granularity(p.granularity, kind));
   const integrator_entry& integrator = find_integrator(p.integrator);
   reset_peak_rss();
-  summation->load(particles_->initial.particles, particles_->orders.at(p.order));
+  summation->load(particles_->initial.particles, particles_->orders.at(p.order), t);
   int evaluations = 0;
   for (int step = 1; step <= (steps > 0 ? steps : request_.steps) && out.error.empty(); ++step) {
     if (interrupted()) {

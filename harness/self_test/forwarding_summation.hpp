@@ -19,7 +19,10 @@ class forwarding_summation : public summation {
 
   const backend_traits& traits() const override { return traits_; }
   void check(const particle_table& p) const override { inner_->check(p); }
-  void load(const particle_table& p, const std::vector<std::uint32_t>& order) override { inner_->load(p, order); }
+  using summation::load;
+  void load(const particle_table& p, const std::vector<std::uint32_t>& order, const team& t) override {
+    inner_->load(p, order, t);
+  }
   void index(const team& t) override { inner_->index(t); }
   void prepare(const team& t) override { inner_->prepare(t); }
   void zero(const team& t) override { inner_->zero(t); }

@@ -32,12 +32,14 @@ struct particle_table {
 };
 
 /// Copies a table into a set of the working precision, in the given order of memory: element k of the set is the
-/// particle with id `order[k]`; an empty order means id order.
+/// particle with id `order[k]`; an empty order means id order. The team's threads write what will be theirs once the
+/// fluid lies before the rest, so that on a machine with several NUMA nodes new memory lies with who uses it.
 template <int D, class R>
-void fill(particle_set<D, R>& p, const particle_table& table, const std::vector<std::uint32_t>& order = {}) {
-  const std::size_t n = order.empty() ? table.size() : order.size();
+void fill(particle_set<D, R>& p, const particle_table& table, const std::vector<std::uint32_t>& order = {},
+          const team& t = {}) {
+  const std::size_t n = order.empty() ? table.size() : order.size(), fluid = table.count(particle_kind::fluid);
   p.resize(n);
-  for (std::size_t k = 0; k < n; ++k) {
+  const auto copy = [&](std::size_t k) {
     const std::uint32_t id = order.empty() ? static_cast<std::uint32_t>(k) : order[k];
     for (int d = 0; d < D; ++d) {
       p.x[d][k] = static_cast<R>(table.x[d][id]);
@@ -47,7 +49,13 @@ void fill(particle_set<D, R>& p, const particle_table& table, const std::vector<
     p.m[k] = static_cast<R>(table.m[id]);
     p.kind[k] = table.kind[id];
     p.id[k] = id;
-  }
+  };
+  t.for_pieces(fluid, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t k = begin; k < end; ++k) copy(k);
+  });
+  t.for_pieces(n - fluid, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t k = begin; k < end; ++k) copy(fluid + k);
+  });
 }
 
 /// The set's particles as a table of `rows` rows in id order; a float becomes the double of the same value. Ids the set

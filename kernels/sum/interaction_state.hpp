@@ -83,8 +83,9 @@ class interaction_state : public state<I::dim, typename I::real> {
     if constexpr (boundary_is_singular<I>()) check_apart<R>(p, I::name);
   }
 
-  void load(const particle_table& p, const std::vector<std::uint32_t>& order) override {
-    base::load(p, order);
+  using summation::load;
+  void load(const particle_table& p, const std::vector<std::uint32_t>& order, const team& t) override {
+    base::load(p, order, t);
     view_ = {};
   }
 

@@ -15,10 +15,10 @@ template <int D, class R>
 state<D, R>::~state() = default;
 
 template <int D, class R>
-void state<D, R>::load(const particle_table& p, const std::vector<std::uint32_t>& order) {
+void state<D, R>::load(const particle_table& p, const std::vector<std::uint32_t>& order, const team& t) {
   check(p);
   check_order(order, p.size());
-  fill(particles_, p, order);
+  fill(particles_, p, order, t);
   rows_ = p.size();
   lost_ = 0;
 }

@@ -20,7 +20,8 @@ class state : public summation {
   virtual dynamics rates_of_state() = 0;
 
   void check(const particle_table& p) const override;
-  void load(const particle_table& p, const std::vector<std::uint32_t>& order) override;
+  using summation::load;
+  void load(const particle_table& p, const std::vector<std::uint32_t>& order, const team& t) override;
   void index(const team& t) override;
   void observe(pass_observer* observer) override { observer_ = observer; }
   std::optional<unfolded_tests> count_unfolded_tests() const override;

@@ -24,7 +24,9 @@ class summation {
   /// Takes the particles (ids are row numbers) in the given order of memory (empty: id order). Positions must be finite
   /// and in Omega, masses and densities positive; else an error that says which particle, or how many, and changes
   /// nothing.
-  virtual void load(const particle_table& p, const std::vector<std::uint32_t>& order) = 0;
+  void load(const particle_table& p, const std::vector<std::uint32_t>& order) { load(p, order, team()); }
+  /// The same, written by the threads of the team that will sum (first touch).
+  virtual void load(const particle_table& p, const std::vector<std::uint32_t>& order, const team& t) = 0;
 
   virtual void index(const team& t) = 0;    ///< cell keys, sort, reorder, cell ranges, neighbour table
   virtual void prepare(const team& t) = 0;  ///< per-particle terms of the formula, the backend's workspace
