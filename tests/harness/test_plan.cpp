@@ -18,6 +18,11 @@ run_request request() {
   return r;
 }
 
+run_request request_with(run_request r, std::vector<std::string> backends) {
+  r.backends = std::move(backends);
+  return r;
+}
+
 TEST(plan, crosses_the_lists_and_runs_serial_backends_once_per_M) {
   const auto worlds = expand(request());
   ASSERT_EQ(worlds.size(), 1u);
@@ -36,11 +41,26 @@ TEST(plan, one_world_per_dx_and_state) {
   EXPECT_EQ(expand(r).size(), 4u);
 }
 
-TEST(plan, order_is_a_permutation_that_seed_and_repetition_decide) {
-  auto order = shuffled_order(50, 7, 1);
-  EXPECT_EQ(order, shuffled_order(50, 7, 1));
-  EXPECT_NE(order, shuffled_order(50, 7, 2));
-  EXPECT_NE(order, shuffled_order(50, 8, 1));
+TEST(plan, granularities_are_those_of_the_backend_and_serial_ones_have_none) {
+  run_request r;
+  r.backends = {"naive", "symmetric_omp"};
+  r.M = {6};
+  r.threads = {2};
+  r.granularities = {"default", "dynamic:32", "static:0"};
+  EXPECT_THROW(check_request(request_with(r, {"naive_tbb"})), error);
+  const auto points = expand(r).front();
+  ASSERT_EQ(points.size(), 3u) << "the default is dynamic:32, which is there once";
+  EXPECT_EQ(points[0].granularity, "none");
+  EXPECT_EQ(points[1].granularity, "dynamic:32");
+  EXPECT_EQ(points[2].granularity, "static:0");
+}
+
+TEST(plan, order_is_a_permutation_that_seed_round_and_repetition_decide) {
+  auto order = shuffled_order(50, 7, 1, 1);
+  EXPECT_EQ(order, shuffled_order(50, 7, 1, 1));
+  EXPECT_NE(order, shuffled_order(50, 7, 1, 2));
+  EXPECT_NE(order, shuffled_order(50, 7, 2, 1));
+  EXPECT_NE(order, shuffled_order(50, 8, 1, 1));
   std::vector<std::size_t> all(50);
   std::iota(all.begin(), all.end(), std::size_t{0});
   EXPECT_NE(order, all);
@@ -51,7 +71,7 @@ TEST(plan, order_is_a_permutation_that_seed_and_repetition_decide) {
 TEST(plan, every_slot_is_reached_by_every_point) {
   std::vector<std::vector<int>> at(4, std::vector<int>(4, 0));
   for (int repetition = 1; repetition <= 400; ++repetition) {
-    const auto order = shuffled_order(4, 1, repetition);
+    const auto order = shuffled_order(4, 1, repetition, 1);
     for (std::size_t slot = 0; slot < 4; ++slot) ++at[order[slot]][slot];
   }
   for (const auto& row : at)
@@ -94,7 +114,7 @@ TEST(plan, refuses_what_makes_no_sense_in_one_line) {
   expect_refused([](auto& r) { r.dt = 0; }, "dt must be");
   expect_refused([](auto& r) { r.steps = 0; }, "steps must be");
   expect_refused([](auto& r) { r.repetitions = 0; }, "repetitions must be");
-  expect_refused([&](auto& r) { r.budget_s = -1; }, "budget must be");
+  expect_refused([](auto& r) { r.granularities = {"dynamic:0"}; }, "granularity");
   expect_refused([](auto& r) { r.study = "../x"; }, "study");
 }
 

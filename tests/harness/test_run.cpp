@@ -1,39 +1,13 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
 #include <map>
 #include <set>
 
-#include "harness/rows/reader.hpp"
-#include "harness/run/runner.hpp"
 #include "lying_backends.hpp"
+#include "study_fixture.hpp"
 
 namespace pairsum::harness {
 namespace {
 
-class run_test : public ::testing::Test {
- protected:
-  run_test() {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("pairsum_run_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::remove_all(folder_);
-  }
-  ~run_test() override { std::filesystem::remove_all(folder_); }
-
-  static run_request small() {
-    run_request r;
-    r.dx = {0.08};
-    r.states = {"perturbed"};
-    r.backends = {"naive", "symmetric_omp", "symmetric_tbb"};
-    r.M = {3, 6};
-    r.threads = {1, 2};
-    r.steps = 3;
-    r.repetitions = 2;
-    return r;
-  }
-
-  std::filesystem::path folder_;
-};
+using run_test = study_test;
 
 TEST_F(run_test, writes_every_step_of_every_point_once_and_all_verified) {
   const auto path = folder_ / "rows.jsonl";
@@ -70,6 +44,31 @@ TEST_F(run_test, equal_bits_over_threads_and_runtimes_are_in_the_rows) {
   for (const auto& [at, different] : bits) EXPECT_EQ(different.size(), 1u) << "M=" << at.first << " step " << at.second;
 }
 
+TEST_F(run_test, passes_of_parallel_backends_are_timed) {
+  const auto path = folder_ / "rows.jsonl";
+  ASSERT_EQ(run(small(), path), 0);
+  for (const sample& s : read_rows(path).samples) {
+    ASSERT_EQ(s.threads_busy_s.has_value(), s.point.backend != "naive") << s.point.backend;
+    EXPECT_EQ(s.threads_busy_s.has_value(), s.barrier_wait_s.has_value());
+    if (!s.threads_busy_s) continue;
+    ASSERT_EQ(s.threads_busy_s->size(), 8u) << "a pass per colour";
+    for (const auto& pass : *s.threads_busy_s) EXPECT_EQ(pass.size(), static_cast<std::size_t>(s.point.threads));
+  }
+}
+
+TEST_F(run_test, work_says_how_many_tests_folding_adds) {
+  const auto path = folder_ / "rows.jsonl";
+  ASSERT_EQ(run(small(), path), 0);
+  std::set<std::uint64_t> symmetric;
+  for (const sample& s : read_rows(path).samples) {
+    if (!s.work) continue;
+    ASSERT_TRUE(s.work->pairs_tested_unfolded);
+    EXPECT_LE(*s.work->pairs_tested_unfolded, s.work->pairs_tested);
+    if (s.point.backend != "naive") symmetric.insert(*s.work->pairs_tested_unfolded);
+  }
+  EXPECT_EQ(symmetric.size(), 1u) << "the same whatever M";
+}
+
 TEST_F(run_test, a_second_run_into_the_same_file_is_the_next_round) {
   const auto path = folder_ / "rows.jsonl";
   run_request r = small();
@@ -99,7 +98,7 @@ TEST_F(run_test, a_wrong_backend_gets_an_error_row_and_never_a_time) {
       ++good;
     }
   }
-  EXPECT_EQ(failed, 2u);  // one per M
+  EXPECT_EQ(failed, 2u * 2);  // one per M and repetition
   EXPECT_EQ(good, 2u * 2 * 3);
 }
 
@@ -113,7 +112,7 @@ TEST_F(run_test, every_stage_of_a_step_is_verified) {
     r.integrators = {integrator};
     EXPECT_EQ(run(r, path, lying), 1) << integrator;
     const rows_file rows = read_rows(path);
-    ASSERT_EQ(rows.samples.size(), 1u);
+    ASSERT_EQ(rows.samples.size(), 2u) << "one per repetition";
     ASSERT_TRUE(rows.samples[0].error);
     EXPECT_EQ(rows.samples[0].error->find("step " + std::to_string(step) + ":"), 0u) << *rows.samples[0].error;
   }
@@ -136,13 +135,15 @@ TEST_F(run_test, orders_of_memory_give_the_same_pairs) {
   EXPECT_EQ(pairs.size(), 1u);
 }
 
-TEST_F(run_test, a_budget_ends_after_one_repetition_at_least) {
+TEST_F(run_test, a_budget_ends_after_one_round_at_least) {
   const auto path = folder_ / "rows.jsonl";
-  run_request r = small();
-  r.repetitions = 1000000;
-  r.budget_s = 0.001;
-  ASSERT_EQ(run(r, path), 0);
-  for (const sample& s : read_rows(path).samples) EXPECT_EQ(s.repetition, 1);
+  study_plan plan = plan_of(small(), 1000000);
+  plan.budget_s = 0.001;
+  ASSERT_EQ(run(plan, path), 0);
+  const rows_file rows = read_rows(path);
+  EXPECT_EQ(rows.finished_rounds().size(), 1u);
+  ASSERT_EQ(rows.ends.size(), 1u);
+  EXPECT_NE(rows.ends[0].reason.find("budget"), std::string::npos);
 }
 
 }  // namespace

@@ -9,12 +9,12 @@
 #include "core/error.hpp"
 #include "harness/measure/worker_team.hpp"
 #include "harness/rows/reader.hpp"
-#include "harness/run/runner.hpp"
 #include "harness/self_test/self_test.hpp"
 #include "harness/self_test/slowed_summation.hpp"
 #include "harness/verify/verifier.hpp"
 #include "harness/verify/verify_all.hpp"
 #include "integrators/integrator.hpp"
+#include "study_fixture.hpp"
 #include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
@@ -211,7 +211,11 @@ TEST(self_test, a_run_measures_the_sound_copies_and_fails_the_corrupt) {
   request.backends.clear();
   for (const self_test_entry& e : built()) request.backends.push_back(std::string(e.word));
   if (request.backends.empty()) GTEST_SKIP() << "neither symmetric_omp nor naive_omp is in this build";
-  EXPECT_EQ(run(request, path, with_self_test(registry::instance())), 1);
+  study_plan plan;
+  plan.study = request.study;
+  plan.parts.push_back({"", request, 1, 1, 0, 1});
+  const registry extended = with_self_test(registry::instance());
+  EXPECT_EQ(conduct(plan, {path, "none", {in_this_process(extended)}}, extended), 1);
   for (const sample& s : read_rows(path).samples)
     EXPECT_EQ(s.error.has_value(), s.point.backend.starts_with("corrupt_")) << s.point.backend;
   std::filesystem::remove_all(path.parent_path());

@@ -1,0 +1,70 @@
+#pragma once
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/error.hpp"
+#include "harness/rows/reader.hpp"
+#include "harness/run/study.hpp"
+#include "harness/run/worker.hpp"
+
+namespace pairsum::harness {
+
+/// Studies in this process, in a folder of their own.
+class study_test : public ::testing::Test {
+ protected:
+  study_test()
+      : folder_(std::filesystem::path(testing::TempDir()) /
+                (std::string("pairsum_") + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+                 std::to_string(::getpid()))) {
+    std::filesystem::remove_all(folder_);
+  }
+  ~study_test() override { std::filesystem::remove_all(folder_); }
+
+  static run_request small() {
+    run_request r;
+    r.dx = {0.08};
+    r.states = {"perturbed"};
+    r.backends = {"naive", "symmetric_omp", "symmetric_tbb"};
+    r.M = {3, 6};
+    r.threads = {1, 2};
+    r.steps = 3;
+    r.repetitions = 2;
+    return r;
+  }
+
+  static study_plan plan_of(const run_request& r, int rounds = 1) {
+    study_plan plan;
+    plan.study = r.study;
+    part_plan part;
+    part.request = r;
+    part.least_rounds = part.most_rounds = rounds;
+    plan.parts.push_back(part);
+    return plan;
+  }
+
+  static int run(const study_plan& plan, const std::filesystem::path& path,
+                 const registry& all = registry::instance()) {
+    return conduct(plan, {path, "cores_first", {in_this_process(all)}}, all);
+  }
+  static int run(const run_request& r, const std::filesystem::path& path, const registry& all = registry::instance()) {
+    return run(plan_of(r), path, all);
+  }
+
+  std::filesystem::path folder_;
+};
+
+/// The message of the pairsum::error that f throws, or "".
+template <class F>
+std::string refusal_of(F&& f) {
+  try {
+    f();
+  } catch (const error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace pairsum::harness
