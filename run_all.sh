@@ -60,7 +60,7 @@ if $quick; then
   study="quick"
 else
   limit=${limit:-900} reserve=75 least=240
-  memory_mb=2500 disk_mb=1000
+  memory_mb=2000 disk_mb=1000
   study="talk"
 fi
 program=build/study/bin/pairsum
