@@ -30,7 +30,7 @@ ALLOWED = {  # folder: folders it may include, besides itself
     "harness/verify": ["core", "particles", "cases", "sum", "harness/measure"],
     "harness/self_test": ["core", "particles", "sum", "harness/measure"],
     "harness/run": ["core", "cases", "integrators", "sum", "harness/rows", "harness/plan", "harness/measure", "harness/verify",
-                    "harness/stats", "harness/environment"],
+                    "harness/stats", "harness/environment", "harness/model", "harness/self_test"],
     "harness/report": ["core", "sum", "harness/rows", "harness/stats", "harness/model", "harness/self_test"],
     "harness/cli": ["core", "cases", "integrators", "sum", "harness/*"],
     "harness/gbench": ["core", "cases", "integrators", "sum", "harness/*", "grid", "smoothing", "particles"],
