@@ -178,6 +178,12 @@ std::string compare_sides(const compare_request& r) {
   if (what == kind::files) {
     a = collect(read_all_rows({r.a}), false);
     b = collect(read_all_rows({r.b}), false);
+    for (const auto& [side, name] : {std::pair(&a, r.a), std::pair(&b, r.b)})
+      if (side->compares_builds)
+        throw error(
+            fmt::format("\"{}\" holds rows of several builds, and a comparison takes one a side; pairsum report "
+                        "compares them",
+                        name));
   } else if (what == kind::revisions) {
     a = collect(of_revision(rows, r.a), false);
     b = collect(of_revision(rows, r.b), false);

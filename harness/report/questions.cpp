@@ -42,6 +42,12 @@ std::string with_bounds(const json& e, const char* key) {
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", value, e.at("low").get<double>(), e.at("high").get<double>());
 }
 
+/// "1.50 to 2.00", or one figure if there is but one.
+std::string range_of(double least, double most) {
+  const std::string from = fmt::format("{:.2f}", least), to = fmt::format("{:.2f}", most);
+  return from == to ? from : from + " to " + to;
+}
+
 std::string list_of(const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& t : texts) all += (all.empty() ? "" : ", ") + t;
@@ -66,7 +72,7 @@ void ask_twice(const json& summary, std::size_t series, json& out) {
   }
   const std::string verdict = least >= 1.95 ? "Yes"
                               : most < 1.05 ? "No, it is not faster"
-                                            : fmt::format("No, {:.2f} to {:.2f} times", least, most);
+                                            : fmt::format("No, {} times", range_of(least, most));
   const bool yes = least >= 1.95;
   out.push_back(
       {{"question", "Is the symmetric sum twice as fast here?"},
@@ -95,7 +101,7 @@ void ask_scaling(const json& summary, std::size_t series, json& out) {
   if (by_kind.size() < 2) return;
   const auto range = [](std::vector<double> v) {
     std::ranges::sort(v);
-    return fmt::format("{:.2f} to {:.2f}", v.front(), v.back());
+    return range_of(v.front(), v.back());
   };
   double waiting = 0;
   int waits = 0;

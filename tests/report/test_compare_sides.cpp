@@ -116,6 +116,14 @@ TEST_F(compared, wrong_sides_are_refused_in_one_line) {
   EXPECT_CONTAINS(message_of([&] { compare("naive", "naive_omp"); }), "have no point in common");
 }
 
+TEST_F(compared, a_file_of_several_builds_is_refused) {
+  const environment_row gcc = build('1', "GNU 12.2.0"), clang = build('2', "Clang 14.0.6");
+  synthetic::write_builds(file("both.jsonl"), {gcc, clang},
+                          {by(gcc, {"naive", 6, 1, 1.0}), by(clang, {"naive", 6, 1, 0.8})});
+  const std::string one = put_build("a.jsonl", gcc, 1.0), both = file("both.jsonl").string();
+  EXPECT_CONTAINS(message_of([&] { compare(one, both); }), "both.jsonl\" holds rows of several builds");
+}
+
 TEST_F(compared, files_without_a_common_point_are_refused) {
   const std::string a = put_build("a.jsonl", build('1', "GNU 12.2.0"), 1.0);
   const std::string b = put_build("b.jsonl", build('1', "GNU 12.2.0"), 1.0, "symmetric");
