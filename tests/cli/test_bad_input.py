@@ -31,6 +31,13 @@ BAD_RUNS = [
     (["--integrator", "nope"], ["nope", "euler"]),
     (["--dim", "4"], ["dimension", '"4"']),
     (["--steps", "0"], ["steps must be at least 1"]),
+    (["--rounds", "0"], ["rounds must be at least 1"]),
+    (["--repetitions", "0"], ["repetitions must be at least 1"]),
+    (["--half-width", "-1"], ["half-width must be at least 0"]),
+    (["--budget", "-1"], ["budget must be at least 0"]),
+    (["--binding", "nope"], ["nope", "cores_first"]),
+    (["--granularity", "nope"], ["nope"]),
+    (["--program", "nope"], ["nope"]),
     (["--study", "a/b"], ["study"]),
     (["--nope"], ["--nope"]),
     (["--steps", "many"], ["many"]),
@@ -81,7 +88,7 @@ def test_report_refuses_foreign_cut_missing_and_empty(pairsum, rows, tmp_path):
     summary = tmp_path / "out" / "summary.json"
     for content in [b"a,b\n1,2\n", b'{"schema":"other"}\n', whole[:-30], b""]:
         rows.write_bytes(content)
-        assert refused(pairsum("report", rows, "--summary", summary), rows.name)
+        assert refused(pairsum("report", rows, "--out", summary.parent), rows.name)
         assert not summary.exists()
     assert refused(pairsum("report", tmp_path / "missing.jsonl"), "missing.jsonl")
     empty = tmp_path / "empty"
@@ -90,7 +97,7 @@ def test_report_refuses_foreign_cut_missing_and_empty(pairsum, rows, tmp_path):
 
 
 def test_report_into_an_unwritable_folder(pairsum, rows):
-    assert refused(pairsum("report", rows, "--summary", "/proc/nope/summary.json"), "/proc/nope")
+    assert refused(pairsum("report", rows, "--out", "/proc/nope"), "/proc/nope")
 
 
 def test_report_names_line_and_key(pairsum, rows):
