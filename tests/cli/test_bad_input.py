@@ -1,5 +1,7 @@
 """Bad input: one clear line, exit code 2, nothing lost or half-written."""
 
+import json
+
 import pytest
 from conftest import SMALL, refused
 
@@ -37,7 +39,7 @@ BAD_RUNS = [
     (["--budget", "-1"], ["budget must be at least 0"]),
     (["--binding", "nope"], ["nope", "cores_first"]),
     (["--granularity", "nope"], ["nope"]),
-    (["--program", "nope"], ["nope"]),
+    (["--program", "nope"], ["--program"]),  # the options name no second build
     (["--study", "a/b"], ["study"]),
     (["--nope"], ["--nope"]),
     (["--steps", "many"], ["many"]),
@@ -75,12 +77,26 @@ def test_unwritable_folder(pairsum, tmp_path):
     assert (tmp_path / "file").read_text() == "no folder"
 
 
-def test_run_leaves_foreign_and_cut_files_alone(pairsum, rows):
+def test_run_leaves_foreign_files_alone(pairsum, rows):
     whole = rows.read_bytes()
-    for content in [b"a,b\n1,2\n", b'{"schema":"other"}\n', whole[:-30], b"\x00\x01\x02"]:
+    broken = whole.replace(b'"sum_s":', b'"sum_seconds":', 1)  # not at the end: no cut line
+    for content in [b"a,b\n1,2\n", b'{"schema":"other"}\n', b"\x00\x01\x02", b"hello", whole[200:], broken]:
         rows.write_bytes(content)
         assert refused(pairsum("run", *SMALL, "--out", rows), rows.name)
         assert rows.read_bytes() == content
+
+
+@pytest.mark.parametrize("bytes_less", [1, 30, 119])
+def test_run_takes_a_cut_last_line_away_and_goes_on(pairsum, rows, bytes_less):
+    whole = rows.read_bytes()
+    rows.write_bytes(whole[:-bytes_less])
+    done = pairsum("run", *SMALL, "--out", rows)
+    assert done.returncode == 0, done.stderr
+    assert "was cut" in done.stdout and rows.name in done.stdout
+    kept = b"\n".join(whole.splitlines()[:-1]) + b"\n"
+    assert rows.read_bytes().startswith(kept)
+    added = [json.loads(line) for line in rows.read_bytes()[len(kept):].splitlines()]
+    assert [row["kind"] for row in added] == ["end"]  # all else was there
 
 
 def test_report_refuses_foreign_cut_missing_and_empty(pairsum, rows, tmp_path):
