@@ -127,13 +127,13 @@ json answer(const measurements& all) {
   a["ties"] = json::array();
   for (const measured_point* p : ties) a["ties"].push_back(tie_entry(p->point));
   const host_words host = host_of(all, all.series[*main]);
-  a["text"] = fmt::format("On {} take {}{}.", host.name, words_of(best.point),
-                          &base == &best
-                              ? ""
-                              : fmt::format(": {} as fast as {}", bounds_text(ratio), words_of(base.point)));
-  a["details"] = fmt::format("On {} a whole step of {} fluid particles (dx {}, {}, {}, {}) takes {} ms{}{}",
-                             host.description, best.point.n_fluid, best.point.dx, best.point.state, best.point.precision,
-                             best.point.interaction, ms(time), base_text(best, naive), ties_text(ties));
+  a["text"] =
+      fmt::format("On {} take {}{}.", host.name, words_of(best.point),
+                  &base == &best ? "" : fmt::format(": {} as fast as {}", bounds_text(ratio), words_of(base.point)));
+  a["details"] =
+      fmt::format("On {} a whole step of {} fluid particles (dx {}, {}, {}, {}) takes {} ms{}{}", host.description,
+                  best.point.n_fluid, best.point.dx, best.point.state, best.point.precision, best.point.interaction,
+                  ms(time), base_text(best, naive), ties_text(ties));
   return a;
 }
 
