@@ -7,6 +7,7 @@
 #include "cases/case.hpp"
 #include "core/names.hpp"
 #include "harness/cli/commands.hpp"
+#include "harness/plan/study.hpp"
 #include "integrators/integrator.hpp"
 #include "sum/grids.hpp"
 #include "sum/registry.hpp"
@@ -42,6 +43,8 @@ nlohmann::json as_json() {
   for (const case_entry& c : case_entries()) all["cases"].push_back({{"name", c.name}, {"description", c.description}});
   for (const integrator_entry& i : integrator_entries())
     all["integrators"].push_back({{"name", i.name}, {"description", i.description}});
+  for (const shipped_plan& p : shipped_plans())
+    all["plans"].push_back({{"name", p.name}, {"title", load_plan(std::string(p.name)).at("title")}});
   return all;
 }
 
@@ -57,6 +60,9 @@ void print_text() {
   for (const case_entry& c : case_entries()) fmt::print("  {:<20} {}\n", c.name, c.description);
   fmt::print("integrators\n");
   for (const integrator_entry& i : integrator_entries()) fmt::print("  {:<20} {}\n", i.name, i.description);
+  fmt::print("plans (pairsum run NAME)\n");
+  for (const shipped_plan& p : shipped_plans())
+    fmt::print("  {:<20} {}\n", p.name, load_plan(std::string(p.name)).at("title").get<std::string>());
   std::vector<std::string> dims;
   for (const int d : r.dims()) dims.push_back(fmt::format("{}D", d));
   for (const missing_word& m : r.missing())
@@ -71,7 +77,8 @@ void print_text() {
 }  // namespace
 
 void add_list_command(CLI::App& app, action& chosen) {
-  CLI::App* const command = app.add_subcommand("list", "What there is: backends, cases, interactions, kernels, grids");
+  CLI::App* const command =
+      app.add_subcommand("list", "What there is: backends, cases, integrators, plans, interactions, kernels, grids");
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "as JSON");
   command->callback([&chosen, json] {

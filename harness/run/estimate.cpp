@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "cases/case.hpp"
 #include "core/workers.hpp"
@@ -26,7 +25,6 @@ double particles_of(const run_request& r, double dx) {
 
 estimate::estimate(const study_plan& plan, const registry& all) : budget_s_(plan.budget_s) {
   const int cores = usable_cores();
-  std::set<std::pair<int, std::string>> peaks;
   for (const part_plan& part : plan.parts) {
     part_estimate e;
     e.rounds = part.half_width > 0 ? part.least_rounds : part.most_rounds;
@@ -37,11 +35,10 @@ estimate::estimate(const study_plan& plan, const registry& all) : budget_s_(plan
         if (is_new) at->second = particles_of(part.request, p.dx);
         e.work += at->second * part.request.steps * part.request.repetitions * plan.builds / std::min(p.threads, cores);
         ++e.points;
-        peaks.emplace(p.threads, p.precision);
       }
     parts_.push_back(e);
   }
-  if (plan.peaks) peaks_s_ = 1.2 * static_cast<double>(peaks.size());
+  if (plan.peaks) peaks_s_ = 1.2 * static_cast<double>(peaks_of(plan, all).size());
 }
 
 void estimate::calibrate(const registry& all) {

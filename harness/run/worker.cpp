@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <memory>
-#include <set>
 
 #include "harness/environment/environment.hpp"
 #include "harness/environment/machine.hpp"
@@ -119,11 +118,11 @@ class errand_run {
   }
 
   int peaks() {
-    std::set<std::pair<int, std::string>> wanted;
-    for (const part_plan& part : order_.plan.parts)
-      for (const world_plan& points : expand(part.request, with_.all))
-        for (const point& p : points) wanted.emplace(p.threads, p.precision);
+    auto wanted = peaks_of(order_.plan, with_.all);
     open();
+    for (const peak_row& p : read_rows(order_.out).peaks)  // by a process that was cut
+      if (p.study == order_.plan.study && p.environment == environment_.environment)
+        wanted.erase({p.threads, p.precision});
     std::uint64_t cache = 0;
     for (const auto& [level, bytes] : environment_.caches) cache = std::max(cache, bytes);
     for (const auto& [threads, precision] : wanted) {
