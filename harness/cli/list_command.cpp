@@ -41,10 +41,10 @@ nlohmann::json as_json() {
   for (const missing_word& m : r.missing())
     all["unavailable"].push_back({{"kind", m.kind}, {"word", m.word}, {"option", m.option}});
   for (const case_entry& c : case_entries()) all["cases"].push_back({{"name", c.name}, {"description", c.description}});
-  for (const shipped_plan& p : shipped_plans())
-    all["plans"].push_back({{"name", p.name}, {"title", nlohmann::json::parse(p.json).at("title")}});
   for (const integrator_entry& i : integrator_entries())
     all["integrators"].push_back({{"name", i.name}, {"description", i.description}});
+  for (const shipped_plan& p : shipped_plans())
+    all["plans"].push_back({{"name", p.name}, {"title", load_plan(std::string(p.name)).at("title")}});
   return all;
 }
 
@@ -58,11 +58,11 @@ void print_text() {
   }
   fmt::print("cases\n");
   for (const case_entry& c : case_entries()) fmt::print("  {:<20} {}\n", c.name, c.description);
-  fmt::print("plans\n");
-  for (const shipped_plan& p : shipped_plans())
-    fmt::print("  {:<20} {}\n", p.name, nlohmann::json::parse(p.json).at("title").get<std::string>());
   fmt::print("integrators\n");
   for (const integrator_entry& i : integrator_entries()) fmt::print("  {:<20} {}\n", i.name, i.description);
+  fmt::print("plans (pairsum run NAME)\n");
+  for (const shipped_plan& p : shipped_plans())
+    fmt::print("  {:<20} {}\n", p.name, load_plan(std::string(p.name)).at("title").get<std::string>());
   std::vector<std::string> dims;
   for (const int d : r.dims()) dims.push_back(fmt::format("{}D", d));
   for (const missing_word& m : r.missing())
@@ -78,7 +78,7 @@ void print_text() {
 
 void add_list_command(CLI::App& app, action& chosen) {
   CLI::App* const command =
-      app.add_subcommand("list", "What there is: backends, plans, cases, interactions, kernels, grids");
+      app.add_subcommand("list", "What there is: backends, cases, integrators, plans, interactions, kernels, grids");
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "as JSON");
   command->callback([&chosen, json] {

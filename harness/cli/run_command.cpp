@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
@@ -47,6 +48,8 @@ constexpr level_option level_options[] = {
     {"seed", "1", "of the perturbation, of random places and of the order of measuring"},
 };
 
+constexpr int rounds_of_interval = 6;  ///< fewer give no interval of 95 % for a median
+
 struct run_options {
   std::string plan, study = "run", out, results = "results", binding = "cores_first";
   std::map<std::string, std::string> levels;
@@ -90,8 +93,11 @@ int start(const run_options& o, const given_options& given) {
     throw error(fmt::format("budget must be at least 0, is {}", o.budget_s));
   if (given.at("budget")) plan.budget_s = o.budget_s;
   for (part_plan& p : plan.parts) {
-    if (o.plan.empty() || given.at("rounds")) p.least_rounds = p.most_rounds = o.rounds;
     if (given.at("half-width")) p.half_width = o.half_width;
+    if (o.plan.empty() || given.at("rounds")) {
+      p.most_rounds = o.rounds;
+      p.least_rounds = p.half_width > 0 ? std::min(o.rounds, rounds_of_interval) : o.rounds;
+    }
     if (p.least_rounds < 1) throw error(fmt::format("rounds must be at least 1, is {}", p.least_rounds));
     if (!(p.half_width >= 0)) throw error(fmt::format("half-width must be at least 0, is {}", p.half_width));
   }
@@ -118,7 +124,8 @@ int start(const run_options& o, const given_options& given) {
   options.builds.push_back(in_a_process(this_program()));
   for (const std::string& program : o.programs) options.builds.push_back(in_a_process(program));
   const int code = conduct(plan, options, all);
-  fmt::print("rows: {}\n", options.out.string());
+  std::error_code none;
+  if (std::filesystem::exists(options.out, none)) fmt::print("rows: {}\n", options.out.string());
   return code;
 }
 
@@ -138,7 +145,10 @@ void add_run_command(CLI::App& app, action& chosen) {
     command->add_option(std::string("--") + level.key, o->levels[level.key] = level.standard, level.what)
         ->capture_default_str();
   command->add_option("--study", o->study, "name of the study, a folder under --results")->capture_default_str();
-  command->add_option("--rounds", o->rounds, "fresh processes that measure all points; intervals need at least 6")
+  command
+      ->add_option(
+          "--rounds", o->rounds,
+          "fresh processes that measure all points; intervals need at least 6, and --half-width may end before")
       ->capture_default_str();
   command->add_option("--half-width", o->half_width,
                       "stop a part when every interval's half-width is below this share of its median (0: never)");

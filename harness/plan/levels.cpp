@@ -49,15 +49,22 @@ level counts(std::vector<int> run_request::*member, bool machine = false) {
           },
           [member](const run_request& r) { return json(r.*member); }};
 }
+/// The only one of them; a list would be cut silently.
+template <class N>
+N single(const std::string& key, const std::string& text, const std::vector<N>& values) {
+  if (values.size() != 1) throw error(fmt::format("{} takes one number, not \"{}\"", key, text));
+  return values.front();
+}
+
 level count(int run_request::*member) {
   return {[member](run_request& r, const std::string& key, const std::string& text, int) {
-            r.*member = parse_counts(key, text, 0).front();
+            r.*member = single(key, text, parse_counts(key, text, 0));
           },
           [member](const run_request& r) { return json(r.*member); }};
 }
 level number(double run_request::*member) {
   return {[member](run_request& r, const std::string& key, const std::string& text, int) {
-            r.*member = parse_numbers(key, text).front();
+            r.*member = single(key, text, parse_numbers(key, text));
           },
           [member](const run_request& r) { return json(r.*member); }};
 }

@@ -155,4 +155,12 @@ void check_plan(const study_plan& plan, const registry& all) {
   for (const part_plan& p : plan.parts) check_request(p.request, all);
 }
 
+std::set<std::pair<int, std::string>> peaks_of(const study_plan& plan, const registry& all) {
+  std::set<std::pair<int, std::string>> wanted;
+  for (const part_plan& part : plan.parts)
+    for (const world_plan& points : expand(part.request, all))
+      for (const point& p : points) wanted.emplace(p.threads, p.precision);
+  return wanted;
+}
+
 }  // namespace pairsum::harness

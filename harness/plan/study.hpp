@@ -1,7 +1,9 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "harness/plan/plan.hpp"
@@ -45,6 +47,9 @@ std::string plan_hash(const study_plan& plan);
 
 /// Throws pairsum::error for a plan that cannot be measured with these backends.
 void check_plan(const study_plan& plan, const registry& all = registry::instance());
+
+/// The numbers of threads and precisions of a plan's points: for these the machine's peaks are measured.
+std::set<std::pair<int, std::string>> peaks_of(const study_plan& plan, const registry& all);
 
 struct shipped_plan {
   std::string_view name, json;

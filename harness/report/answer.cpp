@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "harness/report/compared_points.hpp"
@@ -34,6 +35,17 @@ const measured_point* fastest(const std::vector<const measured_point*>& points) 
   const auto time = [](const measured_point* p) { return *median_of(*p, &phases::total_s); };
   const auto at = std::ranges::min_element(points, {}, time);
   return at == points.end() ? nullptr : *at;
+}
+
+/// Of a series, the points of the round that has the most of them: what was measured at another time, when the machine
+/// may have been another one, is not compared.
+std::vector<const measured_point*> together(const measurements& all, std::size_t series) {
+  std::map<round_key, std::vector<const measured_point*>> rounds;
+  for (const measured_point& p : all.points)
+    if (p.series == series && may_be_taken(p))
+      for (const auto& [round, value] : p.rounds) rounds[round].push_back(&p);
+  const auto size = [](const auto& round) { return round.second.size(); };
+  return std::ranges::max_element(rounds, {}, size)->second;
 }
 
 std::string words_of(const point& p) {
@@ -105,9 +117,7 @@ std::string ties_text(const std::vector<const measured_point*>& ties) {
 json answer(const measurements& all) {
   const auto main = main_series(all);
   if (!main) return nullptr;
-  std::vector<const measured_point*> candidates;
-  for (const measured_point& p : all.points)
-    if (p.series == *main && may_be_taken(p)) candidates.push_back(&p);
+  const std::vector<const measured_point*> candidates = together(all, *main);
   const measured_point& best = *fastest(candidates);
   const measured_point* const naive = naive_base(best, candidates);
   const measured_point& base = naive != nullptr ? *naive : best;

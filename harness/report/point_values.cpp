@@ -53,7 +53,7 @@ std::string first_few(const std::vector<std::string>& texts) {
   constexpr std::size_t most = 3;
   std::string list;
   for (std::size_t k = 0; k < std::min(texts.size(), most); ++k) list += (k ? ", " : "") + texts[k];
-  return texts.size() > most ? fmt::format("{} and {} more points", list, texts.size() - most) : list;
+  return texts.size() > most ? fmt::format("{} and {} more", list, texts.size() - most) : list;
 }
 
 }  // namespace pairsum::harness

@@ -31,23 +31,50 @@ int order_file(const order& o) {
   return file;
 }
 
+/// SIGINT and SIGTERM wait while this lives, so that none is lost between fork and exec.
+class held_signals {
+ public:
+  held_signals() {
+    sigemptyset(&held_);
+    sigaddset(&held_, SIGINT);
+    sigaddset(&held_, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &held_, &before_);
+  }
+  ~held_signals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  held_signals(const held_signals&) = delete;
+  held_signals& operator=(const held_signals&) = delete;
+
+  /// In the child, where such a signal ends the process until it notes them itself.
+  void release_in_child() const {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+ private:
+  sigset_t held_, before_;
+};
+
+constexpr int cannot_run = 127, orphaned = 126;
+
 [[noreturn]] void become(const std::string& program, const std::string& descriptor, int file, int store, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(126);  // it has died meanwhile
+  if (::getppid() != parent) ::_exit(orphaned);  // it has died meanwhile
   ::fcntl(file, F_SETFD, 0);
   if (store >= 0) ::fcntl(store, F_SETFD, 0);
   ::execl(program.c_str(), program.c_str(), "worker", descriptor.c_str(), static_cast<char*>(nullptr));
-  ::_exit(127);
+  ::_exit(cannot_run);
 }
 
 departure wait_for(pid_t child) {
   int status = 0;
   rusage use{};
   bool told = false;
-  while (::wait4(child, &status, 0, &use) < 0) {
-    if (errno != EINTR) throw error(fmt::format("cannot wait for a process: {}", std::strerror(errno)));
+  while (true) {
     if (interrupted() && !told) ::kill(child, SIGTERM);
     told = told || interrupted();
+    if (::wait4(child, &status, 0, &use) >= 0) break;
+    if (errno != EINTR) throw error(fmt::format("cannot wait for a process: {}", std::strerror(errno)));
   }
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
@@ -77,11 +104,21 @@ launcher in_a_process(const std::filesystem::path& program) {
     const int file = order_file(o);
     const std::string descriptor = std::to_string(file);
     const pid_t parent = ::getpid();
-    const pid_t child = ::fork();
-    if (child == 0) become(name, descriptor, file, o.store, parent);
+    pid_t child = -1;
+    {
+      const held_signals held;
+      child = ::fork();
+      if (child == 0) {
+        held.release_in_child();
+        become(name, descriptor, file, o.store, parent);
+      }
+    }
+    const int why = errno;
     ::close(file);
-    if (child < 0) throw error(fmt::format("cannot start a process: {}", std::strerror(errno)));
-    return wait_for(child);
+    if (child < 0) throw error(fmt::format("cannot start a process: {}", std::strerror(why)));
+    const departure end = wait_for(child);
+    if (end.code == cannot_run) throw error(fmt::format("{} is no program that can be run", name));
+    return end;
   };
 }
 

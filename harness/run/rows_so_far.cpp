@@ -4,16 +4,17 @@
 #include <cmath>
 #include <set>
 
-#include "harness/rows/writer.hpp"
 #include "harness/stats/interval.hpp"
 
 namespace pairsum::harness {
 
 rows_so_far::rows_so_far(const std::filesystem::path& path, const study_plan& plan) : study_(plan.study) {
-  last_round_ = last_round(path);
   std::error_code code;
   if (!std::filesystem::exists(path, code) || std::filesystem::file_size(path, code) == 0) return;
-  rows_ = read_rows(path);
+  rows_ = read_rows(path, cut_line::drop);
+  for (const sample& s : rows_.samples) last_round_ = std::max(last_round_, s.round);
+  for (const void_row& v : rows_.voids) last_round_ = std::max(last_round_, v.round);
+  for (const round_row& r : rows_.rounds) last_round_ = std::max(last_round_, r.round);
   const std::string hash = plan_hash(plan);
   std::string ended;
   for (const end_row& e : rows_.ends)
@@ -30,6 +31,12 @@ const std::vector<round_row>& rows_so_far::rounds(const std::string& part) const
   static const std::vector<round_row> none;
   const auto at = rounds_.find(part);
   return at == rounds_.end() ? none : at->second;
+}
+
+std::size_t rows_so_far::finished() const {
+  std::size_t n = 0;
+  for (const auto& [part, rounds] : rounds_) n += rounds.size();
+  return n;
 }
 
 int rows_so_far::next_replicate(const std::string& part) const {

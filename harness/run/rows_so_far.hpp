@@ -12,10 +12,11 @@ namespace pairsum::harness {
 /// What a rows file holds of a plan since the plan was last carried out to its end.
 class rows_so_far {
  public:
-  /// `path` may not exist yet. Throws like read_rows.
+  /// `path` may not exist yet; a last line that was cut does not count. Throws like read_rows for any other fault.
   rows_so_far(const std::filesystem::path& path, const study_plan& plan);
 
-  /// Finished rounds of a part.
+  /// Finished rounds of the plan, and of a part of it.
+  std::size_t finished() const;
   const std::vector<round_row>& rounds(const std::string& part) const;
   /// The next round's number, and the next replicate of a part.
   int next_round() const { return last_round_ + 1; }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/error.hpp"
 #include "harness/environment/environment.hpp"
@@ -29,9 +30,10 @@ environment_row own_environment(const study_plan& plan, const std::string& bindi
   return describe_environment(plan.study, thread_binding(binding).description(), counters().description());
 }
 
+bool same_machine(const environment_row& a, const environment_row& b) { return a.host == b.host && a.cpu == b.cpu; }
+
 bool same_build(const environment_row& a, const environment_row& b) {
-  return a.host == b.host && a.cpu == b.cpu && a.compiler == b.compiler && a.flags == b.flags && a.git == b.git &&
-         a.dirty == b.dirty;
+  return same_machine(a, b) && a.compiler == b.compiler && a.flags == b.flags && a.git == b.git && a.dirty == b.dirty;
 }
 
 /// What differs, for the message.
@@ -49,18 +51,20 @@ class writable_file {
  public:
   explicit writable_file(std::filesystem::path path)
       : path_(std::move(path)), is_new_(!exists(path_)), folder_is_new_(is_new_ && !exists(folder())) {
-    row_writer try_it(path_);
+    { row_writer try_it(path_); }
+    take_away();
   }
-  ~writable_file() {
+  ~writable_file() { take_away(); }
+  writable_file(const writable_file&) = delete;
+  writable_file& operator=(const writable_file&) = delete;
+
+ private:
+  void take_away() const {
     std::error_code code;
     if (!is_new_ || std::filesystem::file_size(path_, code) != 0 || code) return;
     std::filesystem::remove(path_, code);
     if (folder_is_new_) std::filesystem::remove(folder(), code);  // only if nothing else is in it
   }
-  writable_file(const writable_file&) = delete;
-  writable_file& operator=(const writable_file&) = delete;
-
- private:
   static bool exists(const std::filesystem::path& p) {
     std::error_code code;
     return std::filesystem::exists(p, code);
@@ -76,6 +80,7 @@ class conductor {
   conductor(const study_plan& plan, const study_options& options, const registry& all)
       : plan_(plan),
         options_(options),
+        all_(all),
         hash_(plan_hash(plan)),
         environment_(own_environment(plan, options.binding)),
         lock_(options.out),
@@ -83,11 +88,10 @@ class conductor {
     const std::size_t cut = drop_cut_line(options.out);
     if (cut > 0) say(fmt::format("{}: a last line that was cut ({} bytes) is taken away", options.out.string(), cut));
     so_far_.emplace(options.out, plan_);
-    if (plan_.builds == 1)
-      for (const environment_row& e : so_far_->rows().environments)
-        if (!same_build(e, environment_))
-          throw error(fmt::format("{} holds rows of another machine or build: {}. Name another file",
-                                  options.out.string(), other_build(e, environment_)));
+    for (const environment_row& e : so_far_->rows().environments)
+      if (plan_.builds == 1 ? !same_build(e, environment_) : !same_machine(e, environment_))
+        throw error(fmt::format("{} holds rows of another machine or build: {}. Name another file",
+                                options.out.string(), other_build(e, environment_)));
     written_ = std::make_unique<writable_file>(options.out);
     lock_.take();
   }
@@ -141,24 +145,39 @@ class conductor {
 
   /// One process of the first build. False if the study ends here.
   bool carry_out(errand what, std::size_t part, double estimated, const std::string& text) {
-    order o = order_for(what, part, estimated, text);
-    const std::size_t store_end = store_.end();
-    const departure end = options_.builds.front()(o);
-    done_s_ += estimated;
-    if (end.signal != 0 || end.code > 1) store_.truncate(store_end);
-    return went_well(end);
+    for (int crashes = 0; code_ == 0;) {
+      const std::size_t store_end = store_.end();
+      const departure end = options_.builds.front()(order_for(what, part, estimated, text));
+      if (went_well(end)) {
+        done_s_ += estimated;
+        return true;
+      }
+      store_.truncate(store_end);
+      drop_cut_line(options_.out);
+      if (code_ == 0) give_up_after(++crashes, text);
+    }
+    return false;
   }
 
+  /// Sets the code with which the study ends, if it ends with this departure: a process that was killed is started
+  /// again.
   bool went_well(const departure& end) {
-    if (interrupted() || end.code == 130) {
+    if (interrupted() || end.code == 130)
       code_ = 130;
-    } else if (end.signal != 0) {
-      say(fmt::format("a process of the study was ended by signal {}", end.signal));
-      code_ = 2;
-    } else if (end.code > 1) {
-      code_ = end.code == 127 || end.code == 126 ? 2 : end.code;
-    }
-    return code_ == 0;
+    else if (end.signal == 0 && end.code > 1)
+      code_ = 2;  // it has said why
+    return code_ == 0 && end.signal == 0;
+  }
+
+  static std::string end_of(const departure& end) {
+    return end.signal != 0 ? fmt::format("its process was ended by signal {}", end.signal)
+                           : fmt::format("its process ended with code {}", end.code);
+  }
+
+  void give_up_after(int crashes, const std::string& what) {
+    if (crashes <= most_crashes) return;
+    say(fmt::format("{} is given up: it was killed {} times in a row", what, crashes));
+    code_ = 2;
   }
 
   order order_for(errand what, std::size_t part, double estimated, const std::string& text) const {
@@ -175,8 +194,10 @@ class conductor {
 
   bool measure_peaks() {
     if (!plan_.peaks || interrupted()) return true;
+    auto wanted = peaks_of(plan_, all_);
     for (const peak_row& p : so_far_->rows().peaks)
-      if (p.environment == environment_.environment && p.study == plan_.study) return true;
+      if (p.environment == environment_.environment && p.study == plan_.study) wanted.erase({p.threads, p.precision});
+    if (wanted.empty()) return true;
     file();
     return carry_out(errand::peaks, 0, estimate_.peaks_s(), "the machine's peaks");
   }
@@ -199,22 +220,31 @@ class conductor {
     estimate_.verified(k, clock.lap());
     int crashes = 0;
     while (!done(part) && code_ == 0) {
-      const bool any = !so_far_->rounds(name).empty();
-      if (plan_.budget_s > 0 && any && since.seconds() + estimate_.round_s(k) > budget) {
+      if (!affordable(k, since.seconds(), budget)) {
         cut_by_budget_ = true;
         return;
       }
       clock.lap();
       if (!measure_round(k)) {
-        if (code_ == 0 && ++crashes > most_crashes) {
-          say(fmt::format("{} is given up: its rounds did not come to an end {} times", name, crashes));
-          code_ = 2;
-        }
+        if (code_ == 0) give_up_after(++crashes, name);
         continue;
       }
       crashes = 0;
       estimate_.measured(k, clock.lap());
     }
+  }
+
+  /// May the budget pay for another round of the part, which has run for `elapsed` of its share's `budget` seconds? Its
+  /// first is made in any case; up to its least number as long as each later part can still have one; more if these can
+  /// have their least number, and within its share.
+  bool affordable(std::size_t k, double elapsed, double budget) const {
+    const std::size_t rounds = so_far_->rounds(plan_.parts[k].request.part).size();
+    if (plan_.budget_s == 0 || rounds == 0) return true;
+    const bool more = static_cast<int>(rounds) >= plan_.parts[k].least_rounds;
+    double wanted = estimate_.round_s(k);
+    for (std::size_t later = k + 1; later < plan_.parts.size(); ++later)
+      wanted += estimate_.verify_s(later) + (more ? plan_.parts[later].least_rounds : 1) * estimate_.round_s(later);
+    return wanted <= left() && (!more || elapsed + estimate_.round_s(k) <= budget);
   }
 
   bool done(const part_plan& part) const {
@@ -246,16 +276,23 @@ class conductor {
     order o = order_for(errand::measure, k, estimate_.round_s(k), standing_of(k));
     o.round = round;
     const std::size_t store_end = store_.end();
+    std::uint64_t rows = 0;
     for (const std::size_t build : shuffled_order(options_.builds.size(), part.request.seed, round, 0)) {
       const departure end = options_.builds[build](o);
       workers_s += end.cpu_s;
-      if (end.signal == 0 && end.code <= 1 && !interrupted()) {
-        failed_ = failed_ || end.code == 1;
-        continue;
+      if (!went_well(end)) {
+        store_.truncate(store_end);
+        void_round(round, code_ == 130 ? "interrupted" : end_of(end));
+        return false;
       }
-      store_.truncate(store_end);
-      give_up(round, end);
-      return false;
+      const std::uint64_t before = std::exchange(rows, rows_of(round));
+      if (rows == before) {
+        say(fmt::format("program {} of {} measured nothing: is it pairsum, of this version?", build + 1,
+                        options_.builds.size()));
+        code_ = 2;
+        void_round(round, "a program measured nothing");
+        return false;
+      }
     }
     round_row r;
     r.study = plan_.study;
@@ -266,7 +303,7 @@ class conductor {
     r.replicate = so_far_->next_replicate(r.part);
     r.plan = hash_;
     r.seed = part.request.seed;
-    r.rows = rows_of(round);
+    r.rows = rows;
     r.elapsed_s = clock.seconds();
     // A process in this one has its time in this one's: nothing is counted twice or left out.
     r.others_share = share_of_others(machine_before, machine_time_now(), std::max(workers_s, own_time() - own_before));
@@ -282,38 +319,34 @@ class conductor {
         rows.samples, [&](const sample& s) { return s.study == plan_.study && s.round == round; }));
   }
 
-  void give_up(int round, const departure& end) {
-    const bool stopped = interrupted() || end.code == 130;
-    const std::string why = stopped           ? "interrupted"
-                            : end.signal != 0 ? fmt::format("its process was ended by signal {}", end.signal)
-                                              : fmt::format("its process ended with code {}", end.code);
-    if (stopped)
-      code_ = 130;
-    else if (end.signal == 0)
-      code_ = 2;
+  void void_round(int round, const std::string& why) {
     drop_cut_line(options_.out);
     so_far_.emplace(options_.out, plan_);
     writer_.reset();
     for (const auto& open : so_far_->rows().unfinished_rounds())
       if (open.second == round) file().write(void_row{plan_.study, utc_now(), round, why});
-    if (end.signal != 0 && !stopped) say(fmt::format("round {} is voided and measured again: {}", round, why));
+    if (code_ == 0) say(fmt::format("round {} is voided and measured again: {}", round, why));
     so_far_.emplace(options_.out, plan_);
   }
 
   int ended() {
     const std::vector<sample> samples = so_far_->samples();
     if (!samples.empty()) fmt::print("{}", results_table(samples));
+    if (code_ == 130)
+      say(fmt::format("interrupted; {} finished rounds are kept: started again with --out {}, the study goes on there",
+                      so_far_->finished(), options_.out.string()));
     if (code_ != 0) return code_;
     const std::string reason = left_out_        ? "the budget ended before every part was measured"
                                : cut_by_budget_ ? "the budget ended before every part had its rounds"
                                                 : "every part has its rounds";
     if (left_out_ || cut_by_budget_) say(fmt::format("{} ({:.0f} s)", reason, plan_.budget_s));
     file().write(end_row{plan_.study, utc_now(), hash_, reason});
-    return failed_ ? 1 : 0;
+    return std::ranges::any_of(samples, [](const sample& s) { return s.error.has_value(); }) ? 1 : 0;
   }
 
   const study_plan& plan_;
   const study_options& options_;
+  const registry& all_;
   std::string hash_;
   environment_row environment_;
   std::unique_ptr<writable_file> written_;
@@ -325,7 +358,7 @@ class conductor {
   stopwatch since_start_;
   double done_s_ = 0;
   int code_ = 0;
-  bool failed_ = false, left_out_ = false, cut_by_budget_ = false;
+  bool left_out_ = false, cut_by_budget_ = false;
 };
 
 }  // namespace
@@ -339,10 +372,12 @@ std::filesystem::path rows_path(const std::filesystem::path& results, const stud
     for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
       if (entry.path().extension() != ".jsonl" || entry.path() < newest) continue;
       try {
+        const file_lock lock(entry.path());  // refused if it is being written
+        drop_cut_line(entry.path());
         const rows_so_far rows(entry.path(), plan);
         const auto& there = rows.rows().environments;
         if (rows.unended() && !there.empty() && same_build(there.front(), here)) newest = entry.path();
-      } catch (const error&) {  // no rows file, or one of another version: nothing to resume
+      } catch (const error&) {  // no rows file, one of another version, or being written: nothing to resume
       }
     }
   if (!newest.empty()) return newest;

@@ -49,7 +49,11 @@ shared_store::shared_store() : file_(::memfd_create("pairsum-study", MFD_CLOEXEC
 }
 
 shared_store::shared_store(int descriptor) : file_(::dup(descriptor)) {
-  if (file_ < 0 || ::lseek(file_, 0, SEEK_END) < 0) fail("cannot be used");
+  if (file_ >= 0 && ::lseek(file_, 0, SEEK_END) >= 0) return;
+  const int why = errno;
+  if (file_ >= 0) ::close(file_);
+  errno = why;
+  fail("cannot be used");
 }
 
 shared_store::~shared_store() {
