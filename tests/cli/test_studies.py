@@ -238,12 +238,17 @@ def test_compare_files_and_folders(pairsum, measured, tmp_path):
     assert folders.returncode == 0 and "Of 3 comparisons" in folders.stdout
 
 
-def test_compare_a_revision_with_itself(pairsum, measured):
-    rows = (measured / "one.jsonl").read_text().splitlines()
-    git = next(row["git"] for row in map(json.loads, rows) if row["kind"] == "environment")
-    done = pairsum("compare", git[:6], git, "--in", measured / "one.jsonl", "--allow-mixed")
+def test_compare_revisions(pairsum, measured, tmp_path):
+    one = (measured / "one.jsonl").read_text()
+    environment = next(row for row in map(json.loads, one.splitlines()) if row["kind"] == "environment")
+    old = "0123456789ab"
+    for name, text in [("new", one), ("old", (measured / "two.jsonl").read_text().replace(environment["git"], old)
+                                      .replace(environment["environment"], "0123456789abcdef"))]:
+        (tmp_path / f"{name}.jsonl").write_text(text)
+    done = pairsum("compare", old[:6], environment["git"][:6], "--in", "old.jsonl", "new.jsonl", "--allow-mixed")
     assert done.returncode == 0, done.stderr
-    assert "no difference is resolved in 3" in done.stdout
+    assert "Of 3 comparisons B is faster in " in done.stdout
+    assert refused(pairsum("compare", old, old[:6], "--in", "old.jsonl", "new.jsonl", "--allow-mixed"), "both", old)
 
 
 def test_compare_refuses(pairsum, measured, tmp_path):
