@@ -16,12 +16,12 @@ from conftest import BIN, refused
 
 SOURCE = pathlib.Path(os.environ["PAIRSUM_SOURCE"])
 SCHEMA = jsonschema.Draft7Validator(json.loads((SOURCE / "harness/rows/row.schema.json").read_text()))
-ROUNDS = 9
+ROUNDS = 7
 PLAN = {
     "schema": "pairsum.plan/1",
     "study": "cut",
     "title": "for tests",
-    "defaults": {"case": "dam_break", "dx": 0.06, "M": "4,5", "threads": 1, "steps": 2, "repetitions": 2, "rounds": ROUNDS},
+    "defaults": {"case": "dam_break", "dx": 0.07, "M": "4,5", "threads": 1, "steps": 2, "repetitions": 2, "rounds": ROUNDS},
     "parts": [
         {"name": "rest", "backend": "naive,symmetric,symmetric_omp", "state": "rest"},
         {"name": "perturbed", "backend": "naive,symmetric", "state": "perturbed"},
