@@ -19,7 +19,6 @@ rows_so_far::rows_so_far(const std::filesystem::path& path, const study_plan& pl
   std::string ended;
   for (const end_row& e : rows_.ends)
     if (e.study == study_ && e.plan == hash) ended = std::max(ended, e.utc);
-  ended_ = !ended.empty();
   for (const round_row& r : rows_.finished_rounds()) {
     if (r.study != study_ || r.plan != hash) continue;
     replicates_[r.part] = std::max(replicates_[r.part], r.replicate);

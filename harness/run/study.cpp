@@ -255,6 +255,7 @@ class conductor {
   bool measure_round(std::size_t k) {
     const part_plan& part = plan_.parts[k];
     const int round = so_far_->next_round();
+    file();  // the environment's row comes first, whichever build begins
     const auto machine_before = machine_time_now();
     const double own_before = own_time();
     double workers_s = 0;

@@ -36,11 +36,13 @@ TEST(plan, one_world_per_dx_and_state) {
   EXPECT_EQ(expand(r).size(), 4u);
 }
 
-TEST(plan, order_is_a_permutation_that_seed_and_repetition_decide) {
-  auto order = shuffled_order(50, 7, 1);
-  EXPECT_EQ(order, shuffled_order(50, 7, 1));
-  EXPECT_NE(order, shuffled_order(50, 7, 2));
-  EXPECT_NE(order, shuffled_order(50, 8, 1));
+TEST(plan, order_is_a_permutation_that_seed_round_and_repetition_decide) {
+  auto order = shuffled_order(50, 7, 1, 1);
+  EXPECT_EQ(order, shuffled_order(50, 7, 1, 1));
+  EXPECT_NE(order, shuffled_order(50, 7, 1, 2));
+  EXPECT_NE(order, shuffled_order(50, 7, 2, 1));
+  EXPECT_NE(shuffled_order(50, 7, 1, 2), shuffled_order(50, 7, 2, 1));
+  EXPECT_NE(order, shuffled_order(50, 8, 1, 1));
   std::vector<std::size_t> all(50);
   std::iota(all.begin(), all.end(), std::size_t{0});
   EXPECT_NE(order, all);
@@ -49,13 +51,29 @@ TEST(plan, order_is_a_permutation_that_seed_and_repetition_decide) {
 }
 
 TEST(plan, every_slot_is_reached_by_every_point) {
-  std::vector<std::vector<int>> at(4, std::vector<int>(4, 0));
-  for (int repetition = 1; repetition <= 400; ++repetition) {
-    const auto order = shuffled_order(4, 1, repetition);
-    for (std::size_t slot = 0; slot < 4; ++slot) ++at[order[slot]][slot];
+  for (const bool over_rounds : {true, false}) {
+    std::vector<std::vector<int>> at(4, std::vector<int>(4, 0));
+    for (int k = 1; k <= 400; ++k) {
+      const auto order = over_rounds ? shuffled_order(4, 1, k, 1) : shuffled_order(4, 1, 1, k);
+      for (std::size_t slot = 0; slot < 4; ++slot) ++at[order[slot]][slot];
+    }
+    for (const auto& row : at)
+      for (const int n : row) EXPECT_GT(n, 50);  // 100 expected, standard deviation 8.7
   }
-  for (const auto& row : at)
-    for (const int n : row) EXPECT_GT(n, 50);  // 100 expected, standard deviation 8.7
+}
+
+TEST(plan, granularities_are_a_factor_and_each_is_measured_once) {
+  run_request r = request();
+  r.backends = {"symmetric_omp"};
+  r.threads = {1};
+  r.M = {6};
+  r.granularities = {"default", "dynamic:8", "static:0"};
+  const auto points = expand(r).front();
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_EQ(points[1].granularity, "dynamic:8");
+  EXPECT_EQ(points[2].granularity, "static:0");
+  r.granularities = {"default", points[0].granularity};
+  EXPECT_EQ(expand(r).front().size(), 1u) << "the default and its own word are the same";
 }
 
 template <class Change>
@@ -94,7 +112,8 @@ TEST(plan, refuses_what_makes_no_sense_in_one_line) {
   expect_refused([](auto& r) { r.dt = 0; }, "dt must be");
   expect_refused([](auto& r) { r.steps = 0; }, "steps must be");
   expect_refused([](auto& r) { r.repetitions = 0; }, "repetitions must be");
-  expect_refused([&](auto& r) { r.budget_s = -1; }, "budget must be");
+  expect_refused([](auto& r) { r.granularities = {"dynamic"}; }, "dynamic");
+  expect_refused([](auto& r) { r.granularities = {"default", "dynamic:32"}; }, "dynamic:32");  // no serial or TBB word
   expect_refused([](auto& r) { r.study = "../x"; }, "study");
 }
 
