@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is needed, builds pairsum, verifies it, runs the talk's study, prints tables, draws figures.
+# Installs what is needed, builds pairsum, verifies it, carries out the talk's study, makes tables, figures and a page.
 set -euo pipefail
 script=run_all.sh
 called_from=$PWD
@@ -11,17 +11,17 @@ usage() {
   cat <<'TEXT'
 usage: ./run_all.sh [--quick] [--no-install] [--results DIR] [--jobs N] [--limit SECONDS]
 
-Installs the missing Debian packages, builds the program, verifies it, measures the study of the talk at
-full size (2 million particles), prints tables and draws figures. Takes at most 15 minutes after the
+Installs the missing Debian packages, builds the program, verifies it, carries out the studies talk (2 million
+particles) and m_sweep, and makes tables, figures and report.html of each. Takes at most 15 minutes after the
 installation.
 
-  --quick          a small version of the same in at most 2 minutes
+  --quick          the study quick, a small version of the same, in at most 2 minutes
   --no-install     do not look for missing packages
   --results DIR    where results go (default: results, beside this script); every run makes new files
   --jobs N         processes of the build (default: what cores and memory allow)
   --limit SECONDS  time after the installation (default: 900; with --quick 120)
 
-PYTHON names the Python that draws (default: /usr/bin/python3; needs numpy and matplotlib).
+PYTHON names the Python that draws (default: /usr/bin/python3; needs numpy, matplotlib, jinja2).
 Exit code: 0; 1 a verification failed; 2 bad input; 3 something needed is not installed; 4 nothing was
 measured; 130 interrupted; else that of the step that failed. docs/running.md says more.
 TEXT
@@ -55,13 +55,13 @@ done
 
 # ---- what differs between the full and the quick run
 if $quick; then
-  limit=${limit:-120} reserve=15 least=20 # seconds: for tables and figures; for the first part in any case
+  limit=${limit:-120} reserve=30 least=20 # seconds: for tables, figures and page; for the first study in any case
   memory_mb=1000 disk_mb=1000
-  dx=0.02
+  study="quick"
 else
-  limit=${limit:-900} reserve=45 least=240
+  limit=${limit:-900} reserve=75 least=240
   memory_mb=2000 disk_mb=1000
-  dx=0.00594
+  study="talk"
 fi
 program=build/study/bin/pairsum
 
@@ -80,7 +80,7 @@ if $install; then
 else
   say "packages: not looked at (--no-install)"
 fi
-choose_python numpy matplotlib || exit
+choose_python numpy matplotlib jinja2 || exit
 for tool in cmake git; do
   command -v "$tool" >/dev/null || stop "$exit_missing" "$tool is not installed (run without --no-install)"
 done
@@ -107,95 +107,88 @@ commit=$(git rev-parse --short=12 HEAD 2>/dev/null || echo nogit)
 [[ -z $(git status --porcelain -- kernels harness CMakeLists.txt CMakePresets.json 2>/dev/null) ]] || commit+=-dirty
 host=$(uname -n)
 stem=${host//[^A-Za-z0-9._-]/_}-$(date -u +%Y%m%dT%H%M%SZ)-$commit
-if $quick; then
-  first_study="quick"
-else
-  first_study="talk"
-fi
 
-files=() # rows files of this run
-# written: those that hold a measurement.
-written() { ((${#files[@]} == 0)) || grep -ls '"kind":"sample"' -- "${files[@]}" || true; }
+files=()     # rows files of this run
+under_way='' # the study that is being measured
+rows_of() { printf '%s/%s/%s.jsonl' "$results" "$1" "$stem"; }
+# written: those that hold a finished round.
+written() { ((${#files[@]} == 0)) || grep -ls '"kind":"round"' -- "${files[@]}" || true; }
 kept() {
-  local file separator="; valid rows are kept in "
+  local file separator="; finished rounds are kept in "
   while read -r file; do
     printf '%s%s' "$separator" "$(shown "$file")"
     separator=", "
   done < <(written)
+  if [[ -n $under_way ]]; then
+    printf '; to go on: %s run %s --out %q' "$(shown "$program")" "$under_way" "$(shown "$(rows_of "$under_way")")"
+  fi
 }
 
-parallel=naive_omp,symmetric_omp,naive_tbb,symmetric_tbb
-serial=naive,pair_list,sphysics_sweep,ppm_stencil,symmetric
-all_cores=$(cores)
-
-# part WEIGHT MINIMUM STUDY TITLE ARGUMENT...: measures one part of the study. Of the seconds left it may use the
-# share WEIGHT / (weights of this and all later parts); with fewer than MINIMUM left it is left out.
-weight_left=23
-part() {
-  local weight=$1 minimum=$2 study=$3 title=$4
-  shift 4
-  local left=$((deadline - SECONDS)) out=$results/$study/$stem.jsonl began=$SECONDS status=0
-  ((weight_left < 23 || left >= least)) || left=$least # the first part: at least one repetition, however slow the build
-  local budget=$((left * weight / weight_left))
-  weight_left=$((weight_left - weight))
-  heading "measure: $title"
-  if ((left < minimum)); then
-    say "left out: $((left > 0 ? left : 0)) s are left of the limit, $minimum s are wanted (a larger --limit helps)"
-    return
-  fi
-  [[ " ${files[*]} " == *" $out "* ]] || files+=("$out")
-  in_background timeout --kill-after=5 "$left" \
-    "$program" run --study "$study" --case dam_break --steps 5 --budget "$budget" --out "$out" "$@" || status=$?
+# measure STUDY BUDGET LEFT: carries out a plan of the program within so many seconds; after LEFT it is stopped.
+measure() {
+  local study=$1 budget=$2 left=$3 out began=$SECONDS status=0
+  out=$(rows_of "$study")
+  files+=("$out")
+  under_way=$study
+  say "rows go to $(shown "$out")"
+  # In a session of its own, so that Ctrl-C reaches this script alone, which ends the program once.
+  in_background setsid timeout --foreground --kill-after=5 "$left" \
+    "$program" run "$study" --budget "$budget" --out "$out" || status=$?
   if ((status == 124 || (status == 137 && SECONDS - began >= left))); then
-    warn "'$title' was cut short by the time limit; its rows up to there are kept"
+    warn "the study $study was cut short by the time limit; its finished rounds are kept"
   elif ((status != 0)); then
-    stop "$status" "measuring '$title' failed (exit $status)"
+    stop "$status" "measuring the study $study failed (exit $status)"
   fi
+  under_way=''
 }
 
-say
-say "rows go to $(shown "$results/$first_study/$stem.jsonl")"
+heading "measure: the study $study"
+left=$((deadline - SECONDS))
+((left >= least)) || left=$least # at least one round, however slow the build
 if $quick; then
-  part 11 1 quick "parallel algorithms, at rest" --dx $dx --state rest --backend $parallel --M 6,7 \
-    --threads all --repetitions 3
-  part 6 5 quick "parallel algorithms, perturbed" --dx $dx --state perturbed --backend $parallel --M 6,7 \
-    --threads all --repetitions 2
-  part 3 5 quick "serial algorithms" --dx $dx --state rest --backend $serial --M 6,7 --threads 1 --repetitions 2
-  part 3 5 quick "M from 2 to 9" --dx 0.03 --state rest --backend naive_omp,symmetric_omp --M 2,3,4,5,6,7,8,9 \
-    --threads "$all_cores" --repetitions 2
+  measure "$study" $((left - left / 20)) "$left"
 else
-  part 11 1 talk "parallel algorithms, at rest (the talk's points)" --dx $dx --state rest --backend $parallel \
-    --M 6,7 --threads all --repetitions 6
-  part 6 120 talk "parallel algorithms, perturbed" --dx $dx --state perturbed --backend $parallel --M 6,7 \
-    --threads all --repetitions 6
-  part 3 75 talk "serial algorithms" --dx $dx --state rest --backend $serial --M 6,7 --threads 1 --repetitions 6
-  part 2 55 m_sweep "M at full size" --dx $dx --state rest --backend naive_omp,symmetric_omp \
-    --M 5,6,7,8,9 --threads "$all_cores" --repetitions 6
-  part 1 10 m_sweep "M from 2, small case" --dx 0.02 --state rest --backend naive_omp,symmetric_omp \
-    --M 2,3,4,5,6,7,8,9 --threads "$all_cores" --repetitions 6
+  measure "$study" $((left * 3 / 4)) "$left"
+  heading "measure: the study m_sweep"
+  left=$((deadline - SECONDS)) least=75 # every point verified, one round
+  if ((left < least)); then
+    say "left out: $((left > 0 ? left : 0)) s are left of the limit, $least s are wanted (a larger --limit helps)"
+  else
+    measure m_sweep $((left - left / 20)) "$left"
+  fi
 fi
 
-# ---- tables and figures
+# ---- tables, figures and page: one folder per study, named like its rows
 mapfile -t found < <(written)
 ((${#found[@]} > 0)) || stop 4 "nothing was measured within $limit s (a larger --limit helps)"
 heading "tables"
-for file in "${found[@]}"; do # one folder per study, named like its rows
-  folder=${file%.jsonl}
-  mkdir -p "$folder"
-  step "the report" "$program" report "$file" --summary "$folder/summary.json" >"$folder/tables.txt"
-  cat "$folder/tables.txt"
+for file in "${found[@]}"; do
+  step "the report" "$program" report "$file"
 done
-heading "figures"
+heading "figures and report.html"
 export PYTHONDONTWRITEBYTECODE=1
 for file in "${found[@]}"; do
-  step "drawing the figures" "$PYTHON" plots/plot.py "${file%.jsonl}/summary.json" --out "${file%.jsonl}"
+  folder=${file%.jsonl}
+  step "drawing the figures" "$PYTHON" plots/plot.py "$folder/summary.json" --out "$folder"
+  step "making the page" "$PYTHON" plots/report.py "$folder/summary.json" --out "$folder/report.html"
 done
 
 heading "done"
 for file in "${found[@]}"; do
   folder=$(shown "${file%.jsonl}")
   say "rows:    $(shown "$file")"
-  say "tables:  $folder/tables.txt"
+  say "tables:  $folder/tables.txt, tables.md, csv/"
   say "summary: $folder/summary.json"
   say "figures: $folder/*.svg, *.png"
+done
+say
+for file in "${found[@]}"; do
+  folder=${file%.jsonl}
+  study=$(basename "$(dirname "$file")")
+  printf '%s: ' "$study"
+  # The answer stands in the summary; a study of too few points has none.
+  step "reading the answer" "$PYTHON" -c 'import json, sys
+answer = json.load(open(sys.argv[1])).get("answer")
+print(answer["text"] if answer else "nothing can be recommended from these rows")' "$folder/summary.json"
+  say "look at it: $(shown "$folder/report.html")"
 done

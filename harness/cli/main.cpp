@@ -20,7 +20,7 @@ constexpr const char* examples =
     "  pairsum verify                                        every backend against the O(N^2) reference\n"
     "  pairsum run quick                                     a small study of everything, about a minute\n"
     "  pairsum run --dx 0.02 --backend naive_omp,symmetric_omp --M 6,7 --threads 1,2\n"
-    "  pairsum report results/run                            tables and summary.json of what was measured\n"
+    "  pairsum report results/run                            tables, CSV and summary.json of what was measured\n"
     "  pairsum compare naive_omp symmetric_omp --in results  which is faster, and how sure is that\n"
     "Exit codes: 0 fine, 1 a verification failed, 2 bad input, 130 interrupted.";
 

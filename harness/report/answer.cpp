@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
-#include "harness/report/comparisons.hpp"
+#include "harness/report/compared_points.hpp"
+#include "harness/report/judged_entries.hpp"
 #include "harness/report/self_tests.hpp"
 #include "harness/report/text_table.hpp"
-#include "harness/stats/holm.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -16,8 +17,7 @@ namespace {
 using nlohmann::json;
 
 bool may_be_taken(const measured_point& p) {
-  const auto time = median_of(p, &phases::total_s);
-  return time && *time > 0 && !is_self_test(p.point.backend);
+  return comparable_time(p, &phases::total_s) && !is_self_test(p.point.backend);
 }
 
 /// Of the first build: the series of the most particles, and among these of the most points.
@@ -35,6 +35,17 @@ const measured_point* fastest(const std::vector<const measured_point*>& points) 
   const auto time = [](const measured_point* p) { return *median_of(*p, &phases::total_s); };
   const auto at = std::ranges::min_element(points, {}, time);
   return at == points.end() ? nullptr : *at;
+}
+
+/// Of a series, the points of the round that has the most of them: what was measured at another time, when the machine
+/// may have been another one, is not compared.
+std::vector<const measured_point*> together(const measurements& all, std::size_t series) {
+  std::map<round_key, std::vector<const measured_point*>> rounds;
+  for (const measured_point& p : all.points)
+    if (p.series == series && may_be_taken(p))
+      for (const auto& [round, value] : p.rounds) rounds[round].push_back(&p);
+  const auto size = [](const auto& round) { return round.second.size(); };
+  return std::ranges::max_element(rounds, {}, size)->second;
 }
 
 std::string words_of(const point& p) {
@@ -74,63 +85,65 @@ std::vector<const measured_point*> ties_of(const measurements& all, const measur
   return ties;
 }
 
+/// The fastest naive backend, if one was measured, on as many threads; else on any number.
+const measured_point* naive_base(const measured_point& best, const std::vector<const measured_point*>& candidates) {
+  std::vector<const measured_point*> naive, as_many_threads;
+  for (const measured_point* p : candidates) {
+    if (!p->point.backend.starts_with("naive")) continue;
+    naive.push_back(p);
+    if (p->point.threads == best.point.threads) as_many_threads.push_back(p);
+  }
+  return fastest(as_many_threads.empty() ? naive : as_many_threads);
+}
+
+json tie_entry(const point& p) {
+  return {{"backend", p.backend}, {"M", p.M}, {"threads", p.threads}, {"granularity", p.granularity}};
+}
+
+std::string base_text(const measured_point& best, const measured_point* base) {
+  if (base == nullptr) return "; no naive backend was measured beside it.";
+  if (base == &best) return ". It is the fastest naive backend itself.";
+  return fmt::format(", with {} {} ms.", words_of(base->point), ms(*median_of(*base, &phases::total_s)));
+}
+
+std::string ties_text(const std::vector<const measured_point*>& ties) {
+  std::vector<std::string> words;
+  for (const measured_point* p : ties) words.push_back(words_of(p->point));
+  return words.empty() ? "" : " No difference was resolved from " + first_few(words) + ".";
+}
+
 }  // namespace
 
 json answer(const measurements& all) {
   const auto main = main_series(all);
   if (!main) return nullptr;
-  std::vector<const measured_point*> candidates, naive;
-  for (const measured_point& p : all.points)
-    if (p.series == *main && may_be_taken(p)) candidates.push_back(&p);
+  const std::vector<const measured_point*> candidates = together(all, *main);
   const measured_point& best = *fastest(candidates);
-  for (const measured_point* p : candidates)
-    if (p->point.backend.starts_with("naive") && p->point.threads == best.point.threads) naive.push_back(p);
-  if (naive.empty())
-    for (const measured_point* p : candidates)
-      if (p->point.backend.starts_with("naive")) naive.push_back(p);
-  const measured_point& base = naive.empty() ? best : *fastest(naive);
+  const measured_point* const naive = naive_base(best, candidates);
+  const measured_point& base = naive != nullptr ? *naive : best;
   std::vector<std::string> unsaid;  // a ratio that is not paired is said by its interval
   const ratio_estimate ratio = ratio_of(all, base, best, unsaid, &phases::total_s);
-  const double time = *median_of(best, &phases::total_s), base_time = *median_of(base, &phases::total_s);
-  json a;
-  a["backend"] = best.point.backend;
-  a["M"] = best.point.M;
-  a["threads"] = best.point.threads;
-  a["granularity"] = best.point.granularity;
+  const auto ties = ties_of(all, best, candidates, unsaid);
+  const double time = *median_of(best, &phases::total_s);
+  json a = tie_entry(best.point);
   a["series"] = *main;
   a["time_s"] = time;
   a["base_backend"] = base.point.backend;
   a["base_M"] = base.point.M;
   a["base_threads"] = base.point.threads;
-  a["base_time_s"] = base_time;
+  a["base_time_s"] = *median_of(base, &phases::total_s);
   a["speedup"] = ratio.value;
-  a["low"] = ratio.bounds ? json(ratio.bounds->low) : json(nullptr);
-  a["high"] = ratio.bounds ? json(ratio.bounds->high) : json(nullptr);
-  a["confidence"] = ratio.bounds ? json(ratio.bounds->confidence) : json(nullptr);
+  put_bounds(a, ratio.bounds);
   a["ties"] = json::array();
-  const auto ties = ties_of(all, best, candidates, unsaid);
-  std::vector<std::string> tied;
-  for (const measured_point* p : ties) {
-    a["ties"].push_back({{"backend", p->point.backend},
-                         {"M", p->point.M},
-                         {"threads", p->point.threads},
-                         {"granularity", p->point.granularity}});
-    tied.push_back(words_of(p->point));
-  }
-  const series& s = all.series[*main];
-  const bool alone = &base == &best;
-  a["text"] = fmt::format("On {} take {}{}.", host_of(all, s).name, words_of(best.point),
-                          alone ? "" : fmt::format(": {} as fast as {}", bounds_text(ratio), words_of(base.point)));
-  std::string details = fmt::format("On {} a whole step of {} fluid particles (dx {}, {}, {}, {}) takes {} ms",
-                                    host_of(all, s).description, best.point.n_fluid, best.point.dx, best.point.state,
-                                    best.point.precision, best.point.interaction, ms(time));
-  if (!alone)
-    details += fmt::format(", with {} {} ms.", words_of(base.point), ms(base_time));
-  else
-    details +=
-        naive.empty() ? "; no naive backend was measured beside it." : ". It is the fastest naive backend itself.";
-  if (!tied.empty()) details += " No difference was resolved from " + first_few(tied) + ".";
-  a["details"] = details;
+  for (const measured_point* p : ties) a["ties"].push_back(tie_entry(p->point));
+  const host_words host = host_of(all, all.series[*main]);
+  a["text"] =
+      fmt::format("On {} take {}{}.", host.name, words_of(best.point),
+                  &base == &best ? "" : fmt::format(": {} as fast as {}", bounds_text(ratio), words_of(base.point)));
+  a["details"] =
+      fmt::format("On {} a whole step of {} fluid particles (dx {}, {}, {}, {}) takes {} ms{}{}", host.description,
+                  best.point.n_fluid, best.point.dx, best.point.state, best.point.precision, best.point.interaction,
+                  ms(time), base_text(best, naive), ties_text(ties));
   return a;
 }
 

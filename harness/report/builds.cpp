@@ -1,6 +1,5 @@
 #include "harness/report/builds.hpp"
 
-#include <algorithm>
 #include <tuple>
 
 namespace pairsum::harness {
@@ -31,9 +30,8 @@ std::size_t builds::add(const environment_row& e) {
   return known_.size() - 1;
 }
 
-void builds::measured_together(std::size_t a, std::size_t b) {
-  if (a == b) return;
-  if (std::min(a, b) == 0) together_.insert(std::max(a, b));
+void builds::measured_together(const std::set<std::size_t>& in_one_round) {
+  if (in_one_round.contains(0)) together_.insert(in_one_round.begin(), in_one_round.end());
 }
 
 std::string builds::differences() const {

@@ -16,10 +16,10 @@ class builds {
   const environment_row& first(std::size_t build) const { return known_[build]; }
   std::size_t size() const { return known_.size(); }
 
-  /// Notes that two builds were measured in the same round: they are what the study compares.
-  void measured_together(std::size_t a, std::size_t b);
-  /// Was every build measured together with the first one?
-  bool are_a_factor() const { return together_.size() + 1 >= known_.size(); }
+  /// Notes the builds that were measured in the same round: they are what the study compares.
+  void measured_together(const std::set<std::size_t>& in_one_round);
+  /// Are there several, and was every one measured together with the first?
+  bool are_a_factor() const { return known_.size() > 1 && together_.size() == known_.size(); }
 
   /// What differs between them, like `host (a, b), git (x, y)`; empty if nothing does.
   std::string differences() const;

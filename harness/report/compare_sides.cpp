@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "harness/report/builds.hpp"
-#include "harness/report/comparisons.hpp"
+#include "harness/report/compared_points.hpp"
 #include "harness/report/report.hpp"
 #include "harness/report/text_table.hpp"
 #include "harness/rows/reader.hpp"
@@ -35,10 +35,12 @@ bool is_revision(const std::string& word, const environment_row& e) {
   return word.size() >= 4 && (e.git.starts_with(word) || (!e.git.empty() && word.starts_with(e.git)));
 }
 
-std::set<std::string> revisions_in(const std::vector<rows_file>& files) {
+/// The revisions that wrote rows; of these, those that a word means, if it is given.
+std::set<std::string> revisions_in(const std::vector<rows_file>& files, const std::string& word = "") {
   std::set<std::string> names;
   for (const rows_file& f : files)
-    for (const environment_row& e : f.environments) names.insert(e.git);
+    for (const environment_row& e : f.environments)
+      if (word.empty() || is_revision(word, e)) names.insert(e.git);
   return names;
 }
 
@@ -59,13 +61,17 @@ kind kind_of(const compare_request& r, const std::vector<rows_file>& files) {
   if (files.empty()) return kind::files;
   const auto backends = backends_in(files);
   if (backends.contains(r.a) && backends.contains(r.b)) return kind::backends;
-  const auto known = [&](const std::string& word) {
-    return std::ranges::any_of(files, [&](const rows_file& f) {
-      return std::ranges::any_of(f.environments, [&](const environment_row& e) { return is_revision(word, e); });
-    });
-  };
-  if (known(r.a) && known(r.b)) return kind::revisions;
-  const std::string& wrong = backends.contains(r.a) || known(r.a) ? r.b : r.a;
+  const auto of_a = revisions_in(files, r.a), of_b = revisions_in(files, r.b);
+  if (!of_a.empty() && of_a == of_b)
+    throw error(fmt::format("\"{}\" and \"{}\" both name the revision {}", r.a, r.b, join(of_a)));
+  if (!of_a.empty() && !of_b.empty()) return kind::revisions;
+  if (backends.contains(r.a) || backends.contains(r.b)) {
+    const bool a_is_backend = backends.contains(r.a);
+    if (!(a_is_backend ? of_b : of_a).empty())
+      throw error(fmt::format("\"{}\" is a backend, \"{}\" a revision; a comparison takes two of the same kind",
+                              a_is_backend ? r.a : r.b, a_is_backend ? r.b : r.a));
+  }
+  const std::string& wrong = backends.contains(r.a) || !of_a.empty() ? r.b : r.a;
   throw error(
       fmt::format("\"{}\" is neither a backend nor a revision of these rows; there are the backends {} and the "
                   "revisions {}",
@@ -99,28 +105,31 @@ struct compared {
   ratio_estimate ratio;
 };
 
-point without_backend(point p) {
-  p.backend.clear();
-  p.granularity.clear();
-  return p;
+/// Do two backends, each with its fastest granularity, or two builds do the same?
+bool do_the_same(const compare_request& r, kind what, const measurements& all, const measured_point& p,
+                 const measured_point& q) {
+  point like = q.point;
+  if (what != kind::backends) {
+    like.isa = p.point.isa;  // a property of the build
+    return like == p.point;
+  }
+  if (p.series != q.series || p.point.backend != r.a || q.point.backend != r.b) return false;
+  like.backend = r.a;
+  like.granularity = p.point.granularity;
+  return like == p.point && has_best_granularity(all, p, r.phase) && has_best_granularity(all, q, r.phase);
 }
 
 /// Every point of side a with its counterpart on side b.
 std::vector<compared> pairs_of(const compare_request& r, kind what, const measurements& a, const measurements& b) {
   std::vector<compared> found;
-  std::vector<std::string> unsaid;  // that files are not paired is said once
-  const auto timed = [&](const measured_point& p) { return median_of(p, r.phase).value_or(0) > 0; };
+  std::vector<std::string> unsaid;  // that sides are not paired is said once
   for (const measured_point& p : a.points)
     for (const measured_point& q : b.points) {
-      if (!timed(p) || !timed(q) || a.series[p.series].study != b.series[q.series].study) continue;
-      const bool same = what == kind::backends
-                            ? p.series == q.series && p.point.backend == r.a && q.point.backend == r.b &&
-                                  without_backend(p.point) == without_backend(q.point)
-                            : p.point == q.point;
-      if (!same) continue;
+      if (!comparable_time(p, r.phase) || !comparable_time(q, r.phase)) continue;
+      if (a.series[p.series].study != b.series[q.series].study || !do_the_same(r, what, a, p, q)) continue;
       found.push_back({&p, &q,
-                       what == kind::backends ? ratio_of(a, p, q, unsaid, r.phase)
-                                              : unpaired_ratio(values_of(p, r.phase), values_of(q, r.phase))});
+                       what == kind::files ? unpaired_ratio(values_of(p, r.phase), values_of(q, r.phase))
+                                           : ratio_of(a, p, q, unsaid, r.phase)});
     }
   return found;
 }
@@ -169,6 +178,12 @@ std::string compare_sides(const compare_request& r) {
   if (what == kind::files) {
     a = collect(read_all_rows({r.a}), false);
     b = collect(read_all_rows({r.b}), false);
+    for (const auto& [side, name] : {std::pair(&a, r.a), std::pair(&b, r.b)})
+      if (side->compares_builds)
+        throw error(
+            fmt::format("\"{}\" holds rows of several builds, and a comparison takes one a side; pairsum report "
+                        "compares them",
+                        name));
   } else if (what == kind::revisions) {
     a = collect(of_revision(rows, r.a), false);
     b = collect(of_revision(rows, r.b), false);
@@ -182,9 +197,9 @@ std::string compare_sides(const compare_request& r) {
     throw error(fmt::format("\"{}\" and \"{}\" have no point in common (same study, case, dx, M, threads{})", r.a, r.b,
                             what == kind::backends ? "" : ", backend"));
   std::string text = fmt::format("A: {}\nB: {}\n", r.a, r.b);
-  if (what != kind::backends)
-    text += wrapped("measured apart, so not paired: what disturbed one of them alone is in the ratio" +
-                    (differ.empty() ? "" : "; they differ in " + differ));
+  if (std::ranges::any_of(pairs, [](const compared& c) { return c.ratio.pairs == 0; }))
+    text += wrapped("measured apart, so not paired: what disturbed one of them alone is in the ratio");
+  if (!differ.empty()) text += wrapped("they differ in " + differ);
   for (const measurements* m : {&a, &b})
     for (const failed_point& f : m->failed)
       text += fmt::format("left out, not verified: {}: {}\n", label(f.point), f.error);

@@ -17,10 +17,10 @@ struct compare_request {
 };
 
 /// Says in a table and a sentence whether b is faster than a, by how much and with what confidence, at every point that
-/// both have. Two backends are paired by round; files and revisions were measured apart and are compared unpaired
-/// (Welch). The comparisons are judged together (Holm, 95 %). What else differs between the two is said, and refused if
-/// it is the machine or uncommitted changes. Throws pairsum::error with one line for names that are neither, for rows
-/// without the points, and for what read_rows refuses.
+/// both have. Two backends, and two revisions that were measured in the same rounds, are paired by round; what was
+/// measured apart is compared unpaired (Welch). The comparisons are judged together (Holm, 95 %). What else differs
+/// between the two is said, and refused if it is the machine or uncommitted changes. Throws pairsum::error with one
+/// line for names that are neither, for rows without the points, and for what read_rows refuses.
 std::string compare_sides(const compare_request& r);
 
 }  // namespace pairsum::harness

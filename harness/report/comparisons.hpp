@@ -5,16 +5,12 @@
 #include <vector>
 
 #include "harness/report/measured.hpp"
-#include "harness/stats/ratio.hpp"
 
 /// The comparisons between points of a series, as the arrays of summary.json (docs/design.md, section 4). Times are
 /// those of the summation phase. Two points are paired inside the rounds that both were measured in; points that share
-/// none are compared unpaired, with a caveat. The comparisons of a table are judged together (Holm).
+/// none are compared unpaired, with a caveat. The comparisons of a table are judged together (Holm). Where a backend
+/// was measured with several granularities, algorithms and runtimes are compared each with its fastest.
 namespace pairsum::harness {
-
-/// Base time over other time of one phase; both must have a time > 0 in every round.
-ratio_estimate ratio_of(const measurements& all, const measured_point& base, const measured_point& other,
-                        std::vector<std::string>& caveats, std::optional<double> phases::*phase = &phases::sum_s);
 
 /// Every point against itself on one thread; a missing base leaves the entry out with a caveat.
 nlohmann::json thread_speedups(const measurements& all, std::vector<std::string>& caveats);

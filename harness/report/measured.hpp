@@ -63,6 +63,7 @@ struct measurements {
   std::vector<std::string> sources;
   std::vector<environment_row> environments;
   std::vector<struct series> series;
+  std::map<std::string, std::size_t> build_of_environment;
   std::vector<peak_row> peaks;  ///< the best of each environment, number of threads and precision
   std::size_t finished_rounds = 0, void_rounds = 0;
   std::optional<double> others_share;  ///< the largest of a finished round
@@ -83,6 +84,12 @@ std::optional<double> median_of(const measured_point& point, std::optional<doubl
 
 /// The values of one phase, one per round in which it was timed.
 std::vector<double> values_of(const measured_point& point, std::optional<double> phases::*phase);
+
+/// The median of one phase, if it took time in every round: what can be compared. Empty otherwise.
+std::optional<double> comparable_time(const measured_point& point, std::optional<double> phases::*phase);
+
+/// What the machine does at best, measured by the point's build with so many threads; null if that was not measured.
+const peak_row* peak_of(const measurements& all, const measured_point& point, int threads);
 
 /// Backend, M and threads in one text: "symmetric_omp M=6 threads=2".
 std::string label(const point& p);

@@ -11,14 +11,6 @@
 namespace pairsum::harness {
 namespace {
 
-const peak_row* peaks_of(const measurements& all, const measured_point& p) {
-  for (const peak_row& q : all.peaks)
-    if (q.environment == all.series[p.series].environment && q.threads == p.point.threads &&
-        q.precision == p.point.precision)
-      return &q;
-  return nullptr;
-}
-
 std::uint64_t largest_cache(const measurements& all, const std::string& environment) {
   std::uint64_t largest = 0;
   for (const environment_row& e : all.environments)
@@ -51,9 +43,9 @@ formula_costs costs_of(const point& p) {
 }  // namespace
 
 nlohmann::json model_entry(const measurements& all, const measured_point& p) {
-  const peak_row* const peaks = peaks_of(all, p);
-  const auto time = median_of(p, &phases::sum_s);
-  if (peaks == nullptr || !p.work || !time || !(*time > 0)) return nullptr;
+  const peak_row* const peaks = peak_of(all, p, p.point.threads);
+  const auto time = comparable_time(p, &phases::sum_s);
+  if (peaks == nullptr || !p.work || !time) return nullptr;
   cost_question q;
   try {
     q.formula = costs_of(p.point);

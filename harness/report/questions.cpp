@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/report/answer.hpp"
+#include "harness/report/self_tests.hpp"
 #include "harness/report/text_table.hpp"
 
 namespace pairsum::harness {
@@ -12,11 +13,13 @@ namespace {
 
 using nlohmann::json;
 
-/// The entries of a table that belong to one series.
+/// The entries of a table that belong to one series, without those of self-test backends.
 std::vector<json> of_series(const json& summary, const char* table, std::size_t series) {
   std::vector<json> found;
-  for (const json& e : summary.at(table))
-    if (e.at("series") == series) found.push_back(e);
+  for (const json& e : summary.at(table)) {
+    const json& place = e.contains("point") ? e.at("point") : e;
+    if (e.at("series") == series && !is_self_test(place.value("backend", ""))) found.push_back(e);
+  }
   return found;
 }
 
@@ -37,6 +40,12 @@ std::string with_bounds(const json& e, const char* key) {
   const double value = e.at(key);
   if (e.at("low").is_null()) return fmt::format("{:.2f} (no interval)", value);
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", value, e.at("low").get<double>(), e.at("high").get<double>());
+}
+
+/// "1.50 to 2.00", or one figure if there is but one.
+std::string range_of(double least, double most) {
+  const std::string from = fmt::format("{:.2f}", least), to = fmt::format("{:.2f}", most);
+  return from == to ? from : from + " to " + to;
 }
 
 std::string list_of(const std::vector<std::string>& texts) {
@@ -63,7 +72,7 @@ void ask_twice(const json& summary, std::size_t series, json& out) {
   }
   const std::string verdict = least >= 1.95 ? "Yes"
                               : most < 1.05 ? "No, it is not faster"
-                                            : fmt::format("No, {:.2f} to {:.2f} times", least, most);
+                                            : fmt::format("No, {} times", range_of(least, most));
   const bool yes = least >= 1.95;
   out.push_back(
       {{"question", "Is the symmetric sum twice as fast here?"},
@@ -92,7 +101,7 @@ void ask_scaling(const json& summary, std::size_t series, json& out) {
   if (by_kind.size() < 2) return;
   const auto range = [](std::vector<double> v) {
     std::ranges::sort(v);
-    return fmt::format("{:.2f} to {:.2f}", v.front(), v.back());
+    return range_of(v.front(), v.back());
   };
   double waiting = 0;
   int waits = 0;
@@ -129,7 +138,7 @@ std::string best_of(const std::map<int, json>& by_M) {
   return text + ")";
 }
 
-/// What M does to the work: "M = 6: 10284 cells with particles, 19 % of the distance tests folded".
+/// What M does to the work: "M = 6: 19 % in 10284 cells".
 std::string work_over_M(const std::map<int, json>& by_M) {
   std::vector<std::string> texts;
   for (const auto& [M, e] : by_M)
@@ -139,19 +148,30 @@ std::string work_over_M(const std::map<int, json>& by_M) {
   return list_of(texts);
 }
 
+using over_M = std::map<int, json>;
+
+/// For each backend its entries over M, at one grid and granularity and on as many threads as were measured with
+/// several M.
+std::map<std::string, over_M> entries_over_M(const json& summary, std::size_t series) {
+  std::map<std::string, over_M> alike;
+  for (const json& e : of_series(summary, "m_comparison", series))
+    if (e.at("best_M").is_number())
+      alike[json::array({e.at("backend"), e.at("grid"), e.at("granularity"), e.at("threads")}).dump()]
+           [e.at("M").get<int>()] = e;
+  std::map<std::string, over_M> chosen;
+  for (const auto& [key, by_M] : alike) {
+    if (by_M.size() < 2) continue;
+    over_M& best = chosen[word(by_M.begin()->second.at("backend"))];
+    if (best.empty() || best.begin()->second.at("threads") < by_M.begin()->second.at("threads")) best = by_M;
+  }
+  return chosen;
+}
+
 /// Which M for which algorithm, and why.
 void ask_M(const json& summary, std::size_t series, json& out) {
-  std::map<std::string, std::map<int, json>> by_backend;  // at its most threads
-  for (const json& e : of_series(summary, "m_comparison", series)) {
-    if (!e.at("best_M").is_number()) continue;
-    auto& by_M = by_backend[word(e.at("backend"))];
-    const int M = e.at("M");
-    if (!by_M.contains(M) || by_M[M].at("threads") < e.at("threads")) by_M[M] = e;
-  }
   std::vector<std::string> texts;
   std::map<bool, std::string> work;  // of the symmetric sums, of the gather
-  for (const auto& [backend, by_M] : by_backend) {
-    if (by_M.size() < 2) continue;
+  for (const auto& [backend, by_M] : entries_over_M(summary, series)) {
     texts.push_back(backend + " " + best_of(by_M));
     if (backend.starts_with("naive") || backend.starts_with("symmetric"))
       work.try_emplace(backend.starts_with("symmetric"), work_over_M(by_M));
@@ -160,14 +180,13 @@ void ask_M(const json& summary, std::size_t series, json& out) {
   std::string why;
   for (const auto& [symmetric, text] : work)
     if (!text.empty()) why += fmt::format(" {} {}.", symmetric ? "Of the symmetric sums:" : "Of the gather:", text);
+  if (!why.empty()) why = " Share of the distance tests in vain, and cells with particles:" + why;
   out.push_back(
       {{"question", "Which M for which algorithm, and why?"},
-       {"answer",
-        fmt::format(
-            "{}. A smaller M folds more cells together, and distances are tested in vain (share of the tests, and "
-            "cells with particles):{} A larger one costs nothing in the sweep, because only cells that hold "
-            "particles are visited.",
-            list_of(texts), why)}});
+       {"answer", fmt::format("{}. A smaller M folds more cells together, and distances are tested in vain. A "
+                              "larger one costs nothing in the sweep, because only cells that hold particles "
+                              "are visited.{}",
+                              list_of(texts), why)}});
 }
 
 void ask_runtime(const json& summary, std::size_t series, json& out) {
@@ -189,20 +208,20 @@ void ask_runtime(const json& summary, std::size_t series, json& out) {
 }
 
 void ask_bound(const json& summary, std::size_t series, json& out) {
-  const json* best = nullptr;
-  for (const json& p : summary.at("points")) {
-    if (p.at("series") != series || !p.at("model").is_object()) continue;
-    if (best == nullptr || p.at("model").at("share_of_bound") > best->at("model").at("share_of_bound")) best = &p;
-  }
-  if (best == nullptr) return;
-  const json& model = best->at("model");
+  json best;
+  for (const json& p : of_series(summary, "points", series))
+    if (p.at("model").is_object() &&
+        (best.is_null() || p.at("model").at("share_of_bound") > best.at("model").at("share_of_bound")))
+      best = p;
+  if (best.is_null()) return;
+  const json &model = best.at("model"), &p = best.at("point");
   out.push_back(
       {{"question", "How far is that from what the machine can do?"},
-       {"answer",
-        fmt::format("The nearest is {} with M = {} and {}: {:.1f} % of its bound of {} ms, which {} sets.",
-                    word(best->at("point").at("backend")), best->at("point").at("M").get<int>(),
-                    threads_text(best->at("point").at("threads")), 100 * model.at("share_of_bound").get<double>(),
-                    ms(model.at("bound_s")), model.at("limited_by") == "flops" ? "arithmetic" : "memory bandwidth")}});
+       {"answer", fmt::format("The nearest is {} with M = {} and {}: {} could not be done in less than {} ms, and that "
+                              "is {:.1f} % of the time it takes.",
+                              word(p.at("backend")), p.at("M").get<int>(), threads_text(p.at("threads")),
+                              model.at("limited_by") == "flops" ? "its arithmetic" : "its memory traffic",
+                              ms(model.at("bound_s")), 100 * model.at("share_of_bound").get<double>())}});
 }
 
 }  // namespace

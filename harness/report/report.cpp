@@ -31,6 +31,15 @@ std::vector<std::filesystem::path> rows_paths(const std::vector<std::filesystem:
   return paths;
 }
 
+/// Writes a table; takes away the one that an earlier report left if it has no rows now.
+void write_csv(const nlohmann::json& entries, const std::filesystem::path& path) {
+  std::error_code none;
+  if (entries.empty())
+    std::filesystem::remove(path, none);
+  else if (entries.front().is_object())
+    write_whole_file(print_csv(entries), path);
+}
+
 }  // namespace
 
 std::vector<rows_file> read_all_rows(const std::vector<std::filesystem::path>& rows_files_or_folders) {
@@ -53,8 +62,7 @@ std::string make_report(const std::vector<std::filesystem::path>& rows_files_or_
   write_whole_file(text, options.folder / "tables.txt");
   write_whole_file(print_markdown(summary), options.folder / "tables.md");
   for (const auto& item : summary.items())
-    if (item.value().is_array() && !item.value().empty() && item.value().front().is_object())
-      write_whole_file(print_csv(item.value()), options.folder / "csv" / (item.key() + ".csv"));
+    if (item.value().is_array()) write_csv(item.value(), options.folder / "csv" / (item.key() + ".csv"));
   return text;
 }
 

@@ -18,9 +18,9 @@ struct report_options {
 };
 
 /// Reads rows files (a folder stands for every *.jsonl in it), writes summary.json, tables.txt, tables.md and a
-/// csv/*.csv for every table, and returns the tables as text. Each file is there whole or as it was. Throws
-/// pairsum::error with one line if a file is no valid rows file, if there is no finished round, if the rows are mixed
-/// and that is not allowed, or if the files cannot be written.
+/// csv/*.csv for every table that is not empty, and returns the tables as text. Each file is there whole or as it was.
+/// Throws pairsum::error with one line if a file is no valid rows file, if there is no finished round, if the rows are
+/// mixed and that is not allowed, or if the files cannot be written.
 std::string make_report(const std::vector<std::filesystem::path>& rows_files_or_folders, const report_options& options);
 
 }  // namespace pairsum::harness

@@ -10,11 +10,13 @@ namespace pairsum::harness {
 
 report_table algorithm_table(const json& summary, std::size_t series) {
   text_table table({"runtime", "threads", "backend", "time ms", "base", "base ms", "speedup", "[low, high]"}, 3);
-  for (const json& e : entries(summary, "algorithm_speedup", series))
-    table.add({e["runtime"], whole(e["threads"]), fmt::format("{} M={}", backend_name(e), e["M"].get<int>()),
-               ms(number(e["time_s"])),
-               fmt::format("{} M={}", e["base_backend"].get<std::string>(), e["base_M"].get<int>()),
+  const point_names names(summary);
+  for (const json& e : entries(summary, "algorithm_speedup", series)) {
+    const json base{{"backend", e["base_backend"]}, {"grid", e["grid"]}, {"granularity", e["base_granularity"]}};
+    table.add({e["runtime"], whole(e["threads"]), fmt::format("{} M={}", names(e), e["M"].get<int>()),
+               ms(number(e["time_s"])), fmt::format("{} M={}", names(base), e["base_M"].get<int>()),
                ms(number(e["base_time_s"])), fixed(e["speedup"], 3), bounds(e)});
+  }
   return {"Algorithm speedup: summation time of the base over that of the backend, at the same number of threads",
           table};
 }
@@ -108,23 +110,24 @@ report_table bound_table(const json& summary, std::size_t series) {
       table};
 }
 
-report_table build_table(const json& summary) {
-  text_table table({"backend", "M", "threads", "base ms", "ms", "base/other", "[low, high]", "other is"}, 1);
-  std::string base, other;
-  for (const json& e : summary.at("compiler_comparison")) {
+report_table build_table(const json& summary, std::size_t series) {
+  text_table table({"backend", "M", "threads", "base ms", "ms", "base/this", "[low, high]", "this is"}, 1);
+  const point_names names(summary);
+  std::string base, own;
+  for (const json& e : entries(summary, "compiler_comparison", series)) {
     base = e["base_compiler"];
-    other = e["compiler"];
-    table.add({backend_name(e), whole(e["M"]), whole(e["threads"]), ms(number(e["base_time_s"])),
-               ms(number(e["time_s"])), fixed(e["ratio"], 3), bounds(e), e["verdict"].get<std::string>()});
+    own = e["compiler"];
+    table.add({names(e), whole(e["M"]), whole(e["threads"]), ms(number(e["base_time_s"])), ms(number(e["time_s"])),
+               fixed(e["ratio"], 3), bounds(e), e["verdict"].get<std::string>()});
   }
-  return {fmt::format("Builds: summation time; base: {}; other: {}", base, other), table};
+  return {fmt::format("Builds: summation time of this one, {}\nand of the base, {}", own, base), table};
 }
 
 report_table self_test_table(const json& summary) {
-  text_table table({"what", "backend", "M", "threads", "expected", "ratio", "[low, high]", "holds"}, 2);
+  text_table table({"what", "backend", "state", "dx", "M", "threads", "expected", "ratio", "[low, high]", "holds"}, 3);
   for (const json& e : summary.at("self_test"))
-    table.add({e["what"], e["backend"], whole(e["M"]), whole(e["threads"]), fixed(e["expected"], 2),
-               fixed(e["ratio"], 4),
+    table.add({e["what"], e["backend"], e["state"], fmt::format("{}", number(e["dx"])), whole(e["M"]),
+               whole(e["threads"]), fixed(e["expected"], 2), fixed(e["ratio"], 4),
                e["low"].is_null() ? "-" : fmt::format("[{:.4f}, {:.4f}]", number(e["low"]), number(e["high"])),
                e["holds"].get<bool>() ? "yes" : "NO"});
   return {"Self-test: summation time over that of the base against what is known (95 % over the whole table)", table};

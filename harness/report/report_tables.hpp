@@ -21,9 +21,9 @@ report_table runtime_table(const nlohmann::json& summary, std::size_t series);
 report_table m_table(const nlohmann::json& summary, std::size_t series);
 report_table bound_table(const nlohmann::json& summary, std::size_t series);
 report_table phase_table(const nlohmann::json& summary, std::size_t series);
+report_table build_table(const nlohmann::json& summary, std::size_t series);
 
-// Of all.
-report_table build_table(const nlohmann::json& summary);
+// Of all series.
 report_table self_test_table(const nlohmann::json& summary);
 
 /// The summation times of a series as text: a column per number of threads, with intervals, speedups and time per pair.

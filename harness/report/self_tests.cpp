@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "harness/report/judged_entries.hpp"
 #include "harness/self_test/entries.hpp"
 #include "harness/stats/ratio.hpp"
 
@@ -43,9 +44,7 @@ void judge_ratio(json& entry, double expected, const ratio_estimate& r) {
     entry["text"] = "too few rounds for an interval";
     return;
   }
-  entry["low"] = r.bounds->low;
-  entry["high"] = r.bounds->high;
-  entry["confidence"] = r.bounds->confidence;
+  put_bounds(entry, r.bounds);
   const bool inside = r.bounds->low <= expected && expected <= r.bounds->high;
   const bool told = expected == 1 || r.bounds->low > 1;
   entry["holds"] = inside;

@@ -28,12 +28,13 @@ std::string as_markdown(const report_table& t) {
   return caption + "\n\n" + t.table.markdown() + "\n";
 }
 
-std::string title(const json& summary, const json& s) {
+std::string title(const json& s) {
+  return fmt::format("{}, {}, dx {}", s["case"].get<std::string>(), s["state"].get<std::string>(), number(s["dx"]));
+}
+
+std::string details(const json& summary, const json& s) {
   std::string text = fmt::format(
-      "== {}, {}, dx {}: {} fluid and {} boundary particles; study {}, order {}, {}D, {}, {}, {}, "
-      "{}, "
-      "dt {}, isa {}",
-      s["case"].get<std::string>(), s["state"].get<std::string>(), number(s["dx"]), whole(s["n_fluid"]),
+      "{} fluid and {} boundary particles; study {}, order {}, {}D, {}, {}, {}, {}, dt {}, isa {}", whole(s["n_fluid"]),
       whole(s["n_boundary"]), s["study"].get<std::string>(), s["order"].get<std::string>(), whole(s["dim"]),
       s["precision"].get<std::string>(), s["interaction"].get<std::string>(), s["smoothing"].get<std::string>(),
       s["integrator"].get<std::string>(), number(s["dt"]), s["isa"].get<std::string>());
@@ -44,7 +45,14 @@ std::string title(const json& summary, const json& s) {
                           e["dirty"].get<bool>() ? " (dirty)" : "");
       break;
     }
-  return wrapped(text) + "\n";
+  return text;
+}
+
+template <class Print>
+std::string tables_of(const json& summary, std::size_t series, Print print) {
+  return print(algorithm_table(summary, series)) + print(runtime_table(summary, series)) +
+         print(m_table(summary, series)) + print(bound_table(summary, series)) + print(phase_table(summary, series)) +
+         print(build_table(summary, series));
 }
 
 std::string failed_points(const json& summary) {
@@ -73,24 +81,20 @@ std::string print_tables(const json& summary) {
   std::string out = answers(summary, "\n");
   const json& all = summary.at("series");
   for (std::size_t series = 0; series < all.size(); ++series)
-    out += title(summary, all[series]) + summation_text(summary, series) + as_text(algorithm_table(summary, series)) +
-           as_text(runtime_table(summary, series)) + as_text(m_table(summary, series)) +
-           as_text(bound_table(summary, series)) + as_text(phase_table(summary, series));
-  return out + as_text(build_table(summary)) + as_text(self_test_table(summary)) + failed_points(summary) +
-         caveat_list(summary);
+    out += wrapped("== " + title(all[series]) + ": " + details(summary, all[series])) + "\n" +
+           summation_text(summary, series) + tables_of(summary, series, as_text);
+  return out + as_text(self_test_table(summary)) + failed_points(summary) + caveat_list(summary);
 }
 
 std::string print_markdown(const json& summary) {
   std::string out = "# " + summary.at("title").get<std::string>() + "\n\n" + answers(summary, "\n");
   const json& all = summary.at("series");
   for (std::size_t series = 0; series < all.size(); ++series)
-    out += "## " + title(summary, all[series]).substr(3) + as_markdown(summation_table(summary, series)) +
-           as_markdown(algorithm_table(summary, series)) + as_markdown(runtime_table(summary, series)) +
-           as_markdown(m_table(summary, series)) + as_markdown(bound_table(summary, series)) +
-           as_markdown(phase_table(summary, series));
-  out += as_markdown(build_table(summary)) + as_markdown(self_test_table(summary));
+    out += "## " + title(all[series]) + "\n\n" + wrapped(details(summary, all[series])) + "\n" +
+           as_markdown(summation_table(summary, series)) + tables_of(summary, series, as_markdown);
+  out += as_markdown(self_test_table(summary));
   const std::string rest = failed_points(summary) + caveat_list(summary);
-  return out + (rest.empty() ? "" : "```\n" + rest + "```\n");
+  return out + (rest.empty() ? "" : "```text\n" + rest + "```\n");
 }
 
 }  // namespace pairsum::harness

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "cases/case.hpp"
@@ -49,9 +50,13 @@ void estimate::calibrate(const registry& all) {
   const workers w(sum->traits().threads, 1);
   sum->load(c.particles, {});
   sum->evaluate(w.get());
-  stopwatch clock;
-  sum->evaluate(w.get());
-  rate_ = clock.seconds() / static_cast<double>(c.particles.size());
+  double best = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 5; ++k) {
+    stopwatch clock;
+    sum->evaluate(w.get());
+    best = std::min(best, clock.seconds());
+  }
+  rate_ = best / static_cast<double>(c.particles.size());
 }
 
 double estimate::all_s() const {

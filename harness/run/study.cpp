@@ -21,6 +21,7 @@
 #include "harness/run/interrupt.hpp"
 #include "harness/run/results_table.hpp"
 #include "harness/run/rows_so_far.hpp"
+#include "harness/run/worker.hpp"
 #include "harness/verify/shared_store.hpp"
 
 namespace pairsum::harness {
@@ -51,18 +52,20 @@ class writable_file {
  public:
   explicit writable_file(std::filesystem::path path)
       : path_(std::move(path)), is_new_(!exists(path_)), folder_is_new_(is_new_ && !exists(folder())) {
-    row_writer try_it(path_);
+    { row_writer try_it(path_); }
+    take_away();
   }
-  ~writable_file() {
+  ~writable_file() { take_away(); }
+  writable_file(const writable_file&) = delete;
+  writable_file& operator=(const writable_file&) = delete;
+
+ private:
+  void take_away() const {
     std::error_code code;
     if (!is_new_ || std::filesystem::file_size(path_, code) != 0 || code) return;
     std::filesystem::remove(path_, code);
     if (folder_is_new_) std::filesystem::remove(folder(), code);  // only if nothing else is in it
   }
-  writable_file(const writable_file&) = delete;
-  writable_file& operator=(const writable_file&) = delete;
-
- private:
   static bool exists(const std::filesystem::path& p) {
     std::error_code code;
     return std::filesystem::exists(p, code);
@@ -119,6 +122,7 @@ class conductor {
   row_writer& file() {
     if (!writer_) {
       writer_.emplace(options_.out);
+      lock_.take();  // it is there now
       if (!writer_->knows(environment_.environment)) writer_->write(environment_);
     }
     return *writer_;
@@ -218,8 +222,7 @@ class conductor {
     estimate_.verified(k, clock.lap());
     int crashes = 0;
     while (!done(part) && code_ == 0) {
-      const bool any = !so_far_->rounds(name).empty();
-      if (plan_.budget_s > 0 && any && since.seconds() + estimate_.round_s(k) > budget) {
+      if (!affordable(k, since.seconds(), budget)) {
         cut_by_budget_ = true;
         return;
       }
@@ -231,6 +234,19 @@ class conductor {
       crashes = 0;
       estimate_.measured(k, clock.lap());
     }
+  }
+
+  /// May the budget pay for another round of the part, which has run for `elapsed` of its share's `budget` seconds? Its
+  /// first is made in any case; up to its least number as long as each later part can still have one; more if these can
+  /// have their least number, and within its share.
+  bool affordable(std::size_t k, double elapsed, double budget) const {
+    const std::size_t rounds = so_far_->rounds(plan_.parts[k].request.part).size();
+    if (plan_.budget_s == 0 || rounds == 0) return true;
+    const bool more = static_cast<int>(rounds) >= plan_.parts[k].least_rounds;
+    double wanted = estimate_.round_s(k);
+    for (std::size_t later = k + 1; later < plan_.parts.size(); ++later)
+      wanted += estimate_.verify_s(later) + (more ? plan_.parts[later].least_rounds : 1) * estimate_.round_s(later);
+    return wanted <= left() && (!more || elapsed + estimate_.round_s(k) <= budget);
   }
 
   bool done(const part_plan& part) const {
@@ -328,7 +344,8 @@ class conductor {
                                                 : "every part has its rounds";
     if (left_out_ || cut_by_budget_) say(fmt::format("{} ({:.0f} s)", reason, plan_.budget_s));
     file().write(end_row{plan_.study, utc_now(), hash_, reason});
-    return std::ranges::any_of(samples, [](const sample& s) { return s.error.has_value(); }) ? 1 : 0;
+    const auto failed = [&](const sample& s) { return s.error && !must_fail(plan_, s.point.backend); };
+    return std::ranges::any_of(samples, failed) ? 1 : 0;
   }
 
   const study_plan& plan_;
@@ -359,10 +376,11 @@ std::filesystem::path rows_path(const std::filesystem::path& results, const stud
     for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
       if (entry.path().extension() != ".jsonl" || entry.path() < newest) continue;
       try {
+        const file_lock lock(entry.path());  // refused if it is being written
         const rows_so_far rows(entry.path(), plan);
         const auto& there = rows.rows().environments;
         if (rows.unended() && !there.empty() && same_build(there.front(), here)) newest = entry.path();
-      } catch (const error&) {  // no rows file, or one of another version: nothing to resume
+      } catch (const error&) {  // no rows file, one of another version, or being written: nothing to resume
       }
     }
   if (!newest.empty()) return newest;

@@ -7,7 +7,7 @@ import subprocess
 import pytest
 
 BIN = pathlib.Path(os.environ["PAIRSUM_BIN"])
-SMALL = ["--dx", "0.08", "--M", "3", "--threads", "1", "--steps", "2", "--repetitions", "1"]
+SMALL = ["--dx", "0.08", "--M", "3", "--threads", "1", "--steps", "2", "--rounds", "1"]
 
 
 @pytest.fixture

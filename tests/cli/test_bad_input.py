@@ -1,5 +1,7 @@
 """Bad input: one clear line, exit code 2, nothing lost or half-written."""
 
+import json
+
 import pytest
 from conftest import SMALL, refused
 
@@ -31,6 +33,13 @@ BAD_RUNS = [
     (["--integrator", "nope"], ["nope", "euler"]),
     (["--dim", "4"], ["dimension", '"4"']),
     (["--steps", "0"], ["steps must be at least 1"]),
+    (["--rounds", "0"], ["rounds must be at least 1"]),
+    (["--repetitions", "0"], ["repetitions must be at least 1"]),
+    (["--half-width", "-1"], ["half-width must be at least 0"]),
+    (["--budget", "-1"], ["budget must be at least 0"]),
+    (["--binding", "nope"], ["nope", "cores_first"]),
+    (["--granularity", "nope"], ["nope"]),
+    (["--program", "nope"], ["--program"]),  # the options name no second build
     (["--study", "a/b"], ["study"]),
     (["--nope"], ["--nope"]),
     (["--steps", "many"], ["many"]),
@@ -68,12 +77,26 @@ def test_unwritable_folder(pairsum, tmp_path):
     assert (tmp_path / "file").read_text() == "no folder"
 
 
-def test_run_leaves_foreign_and_cut_files_alone(pairsum, rows):
+def test_run_leaves_foreign_files_alone(pairsum, rows):
     whole = rows.read_bytes()
-    for content in [b"a,b\n1,2\n", b'{"schema":"other"}\n', whole[:-30], b"\x00\x01\x02"]:
+    broken = whole.replace(b'"sum_s":', b'"sum_seconds":', 1)  # not at the end: no cut line
+    for content in [b"a,b\n1,2\n", b'{"schema":"other"}\n', b"\x00\x01\x02", b"hello", whole[200:], broken]:
         rows.write_bytes(content)
         assert refused(pairsum("run", *SMALL, "--out", rows), rows.name)
         assert rows.read_bytes() == content
+
+
+@pytest.mark.parametrize("bytes_less", [1, 30, 119])
+def test_run_takes_a_cut_last_line_away_and_goes_on(pairsum, rows, bytes_less):
+    whole = rows.read_bytes()
+    rows.write_bytes(whole[:-bytes_less])
+    done = pairsum("run", *SMALL, "--out", rows)
+    assert done.returncode == 0, done.stderr
+    assert "was cut" in done.stdout and rows.name in done.stdout
+    kept = b"\n".join(whole.splitlines()[:-1]) + b"\n"
+    assert rows.read_bytes().startswith(kept)
+    added = [json.loads(line) for line in rows.read_bytes()[len(kept):].splitlines()]
+    assert [row["kind"] for row in added] == ["end"]  # all else was there
 
 
 def test_report_refuses_foreign_cut_missing_and_empty(pairsum, rows, tmp_path):
@@ -81,7 +104,7 @@ def test_report_refuses_foreign_cut_missing_and_empty(pairsum, rows, tmp_path):
     summary = tmp_path / "out" / "summary.json"
     for content in [b"a,b\n1,2\n", b'{"schema":"other"}\n', whole[:-30], b""]:
         rows.write_bytes(content)
-        assert refused(pairsum("report", rows, "--summary", summary), rows.name)
+        assert refused(pairsum("report", rows, "--out", summary.parent), rows.name)
         assert not summary.exists()
     assert refused(pairsum("report", tmp_path / "missing.jsonl"), "missing.jsonl")
     empty = tmp_path / "empty"
@@ -90,7 +113,7 @@ def test_report_refuses_foreign_cut_missing_and_empty(pairsum, rows, tmp_path):
 
 
 def test_report_into_an_unwritable_folder(pairsum, rows):
-    assert refused(pairsum("report", rows, "--summary", "/proc/nope/summary.json"), "/proc/nope")
+    assert refused(pairsum("report", rows, "--out", "/proc/nope"), "/proc/nope")
 
 
 def test_report_names_line_and_key(pairsum, rows):

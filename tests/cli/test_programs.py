@@ -1,5 +1,6 @@
 """What the programs print and write when all is well."""
 
+import csv
 import itertools
 import json
 import os
@@ -51,7 +52,8 @@ def test_version_names_revision_compiler_and_flags(pairsum):
 
 def test_help_teaches(pairsum):
     assert "pairsum run" in pairsum("--help").stdout
-    for command in ["run", "verify", "report", "list"]:
+    assert "worker" not in pairsum("--help").stdout
+    for command in ["run", "verify", "report", "compare", "list"]:
         done = pairsum(command, "--help")
         assert done.returncode == 0 and len(done.stdout) > 200
 
@@ -76,15 +78,15 @@ def test_list_and_its_json_agree(pairsum, listed):
 
 def test_rows_of_all_backends_obey_the_schema(pairsum, backends, tmp_path):
     out = tmp_path / "deep" / "rows.jsonl"
-    done = pairsum("run", *SMALL[:6], "--backend", ",".join(backends), "--state", "rest,perturbed", "--steps", 2, "--repetitions", 2,
-                   "--out", out)
+    done = pairsum("run", *SMALL[:6], "--backend", ",".join(backends), "--state", "rest,perturbed", "--steps", 2, "--rounds", 2,
+                   "--repetitions", 2, "--out", out)
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines()[-1] == f"rows: {out}"
     assert done.stderr == ""  # no progress line where nobody looks
     assert schema_errors(out) == []
     samples = [json.loads(line) for line in out.read_text().splitlines() if '"sample"' in line]
     assert {s["point"]["backend"] for s in samples} == set(backends)
-    assert len(samples) == len(backends) * 2 * 2 * 2
+    assert len(samples) == len(backends) * 2 * 2 * 2 * 2
     for s in samples:
         assert s["verify"]["fingerprint"] and s["phases"]["total_s"] > 0
 
@@ -97,14 +99,29 @@ def test_default_rows_path_names_study_host_time_and_revision(pairsum, tmp_path)
 
 
 def test_report_writes_summary_and_tables(pairsum, tmp_path):
-    rows = tmp_path / "rows.jsonl"
+    rows, folder = tmp_path / "rows.jsonl", tmp_path / "deep" / "s"
     made = pairsum("run", *SMALL[:2], "--M", "6", *SMALL[4:], "--out", rows)  # the table compares with M = 6
     assert made.returncode == 0, made.stderr
-    done = pairsum("report", rows, "--summary", tmp_path / "s" / "summary.json")
+    done = pairsum("report", rows, "--out", folder)
     assert done.returncode == 0, done.stderr
-    summary = json.loads((tmp_path / "s" / "summary.json").read_text())
-    assert summary["schema"] == "pairsum.summary/1" and summary["points"]
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["schema"] == "pairsum.summary/2" and summary["points"]
+    assert done.stdout.splitlines()[-1] == f"summary: {folder / 'summary.json'}"
     assert "Algorithm speedup" in done.stdout and max(map(len, done.stdout.splitlines()[:-1])) <= 120
+    assert (folder / "tables.txt").read_text().strip() in done.stdout
+    assert "Algorithm speedup" in (folder / "tables.md").read_text()
+    for table in (folder / "csv").iterdir():
+        lines = list(csv.reader(table.read_text().splitlines()))
+        assert lines and {len(line) for line in lines} == {len(lines[0])}, table
+    assert (folder / "csv" / "points.csv").exists()
+
+
+def test_report_goes_beside_the_rows_by_default(pairsum, rows):
+    done = pairsum("report", rows)
+    assert done.returncode == 0, done.stderr
+    assert (rows.parent / "rows" / "summary.json").exists()
+    assert pairsum("report", rows.parent).returncode == 0  # a folder of rows: beside them
+    assert (rows.parent / "summary.json").exists()
 
 
 def test_verify_says_how_many_agree(pairsum, listed):
@@ -132,7 +149,7 @@ def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
                "order": ["lattice", "shuffled", "morton"], "integrator": ["euler", "rk4"]}
     options = [text for name, words in factors.items() for text in (f"--{name}", ",".join(words))]
     done = pairsum("run", "--case", "random_clustered", "--dx", "0.2", "--M", "4", "--threads", "1", "--backend", "naive,symmetric",
-                   "--steps", "1", "--repetitions", "1", *options, "--out", out)
+                   "--steps", "1", "--rounds", "1", *options, "--out", out)
     assert done.returncode == 0, done.stderr
     points = [row["point"] for row in map(json.loads, out.read_text().splitlines()) if row["kind"] == "sample"]
     plain = len(listed["plain_interactions"])
@@ -140,7 +157,7 @@ def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
     assert len(points) == len({json.dumps(p, sort_keys=True) for p in points}) == 2 * 3 * 2 * formulas * len(listed["precisions"])
     assert {p["smoothing"] for p in points if p["interaction"] == "count"} == {"none"}
     assert schema_errors(out) == []
-    for words in ["double, monaghan94", "rk4, order shuffled"]:
+    for words in [f"double, {listed['interactions'][-1]}", "rk4, order shuffled"]:
         assert words in done.stdout
     assert pairsum("report", out).returncode == 0
 
@@ -151,14 +168,14 @@ def test_cases_run_in_their_dimensions(pairsum, listed, tmp_path, case, dim):
     if dim not in listed["dims"]:
         pytest.skip(f"{dim}D is not built")
     done = pairsum("run", "--case", case, "--dim", str(dim), "--dx", "0.1" if dim == 3 else "0.05", "--state", "perturbed", "--M", "5", "--threads", "1",
-                   "--integrator", "predictor_corrector", "--steps", "3", "--repetitions", "1", "--out", tmp_path / "rows.jsonl")
+                   "--integrator", "predictor_corrector", "--steps", "3", "--rounds", "1", "--out", tmp_path / "rows.jsonl")
     assert done.returncode == 0, done.stderr
     assert "FAILED" not in done.stdout
 
 
 def test_interrupt_leaves_valid_rows(pairsum, tmp_path):
     out = tmp_path / "rows.jsonl"
-    process = subprocess.Popen([BIN / "pairsum", "run", *SMALL[:6], "--steps", "2", "--repetitions", "100000", "--out", out],
+    process = subprocess.Popen([BIN / "pairsum", "run", *SMALL[:6], "--steps", "2", "--rounds", "100000", "--out", out],
                                stdout=subprocess.PIPE, text=True)
     while not out.exists() or out.read_text().count('"sample"') < 10:
         time.sleep(0.02)

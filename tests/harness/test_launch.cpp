@@ -7,14 +7,14 @@
 #include "harness/run/interrupt.hpp"
 #include "harness/run/launch.hpp"
 #include "harness/verify/shared_store.hpp"
-#include "studies.hpp"
+#include "study_fixture.hpp"
 
 namespace pairsum::harness {
 namespace {
 
 class launch : public study_test {
  protected:
-  launch() { order_.plan = plan_of({small_part("a", 1)}); }
+  launch() { order_.plan = study_of({small_part("a", 1)}); }
 
   /// A program made of these lines of shell.
   std::filesystem::path program(const std::string& lines, const char* first = "#!/bin/sh\n") const {

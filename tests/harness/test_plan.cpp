@@ -18,6 +18,11 @@ run_request request() {
   return r;
 }
 
+run_request request_with(run_request r, std::vector<std::string> backends) {
+  r.backends = std::move(backends);
+  return r;
+}
+
 TEST(plan, crosses_the_lists_and_runs_serial_backends_once_per_M) {
   const auto worlds = expand(request());
   ASSERT_EQ(worlds.size(), 1u);
@@ -34,6 +39,20 @@ TEST(plan, one_world_per_dx_and_state) {
   r.dx = {0.02, 0.03};
   r.states = {"rest", "perturbed"};
   EXPECT_EQ(expand(r).size(), 4u);
+}
+
+TEST(plan, granularities_are_those_of_the_backend_and_serial_ones_have_none) {
+  run_request r;
+  r.backends = {"naive", "symmetric_omp"};
+  r.M = {6};
+  r.threads = {2};
+  r.granularities = {"default", "dynamic:32", "static:0"};
+  EXPECT_THROW(check_request(request_with(r, {"naive_tbb"})), error);
+  const auto points = expand(r).front();
+  ASSERT_EQ(points.size(), 3u) << "the default is dynamic:32, which is there once";
+  EXPECT_EQ(points[0].granularity, "none");
+  EXPECT_EQ(points[1].granularity, "dynamic:32");
+  EXPECT_EQ(points[2].granularity, "static:0");
 }
 
 TEST(plan, order_is_a_permutation_that_seed_round_and_repetition_decide) {
@@ -60,20 +79,6 @@ TEST(plan, every_slot_is_reached_by_every_point) {
     for (const auto& row : at)
       for (const int n : row) EXPECT_GT(n, 50);  // 100 expected, standard deviation 8.7
   }
-}
-
-TEST(plan, granularities_are_a_factor_and_each_is_measured_once) {
-  run_request r = request();
-  r.backends = {"symmetric_omp"};
-  r.threads = {1};
-  r.M = {6};
-  r.granularities = {"default", "dynamic:8", "static:0"};
-  const auto points = expand(r).front();
-  ASSERT_EQ(points.size(), 3u);
-  EXPECT_EQ(points[1].granularity, "dynamic:8");
-  EXPECT_EQ(points[2].granularity, "static:0");
-  r.granularities = {"default", points[0].granularity};
-  EXPECT_EQ(expand(r).front().size(), 1u) << "the default and its own word are the same";
 }
 
 template <class Change>
@@ -112,8 +117,7 @@ TEST(plan, refuses_what_makes_no_sense_in_one_line) {
   expect_refused([](auto& r) { r.dt = 0; }, "dt must be");
   expect_refused([](auto& r) { r.steps = 0; }, "steps must be");
   expect_refused([](auto& r) { r.repetitions = 0; }, "repetitions must be");
-  expect_refused([](auto& r) { r.granularities = {"dynamic"}; }, "dynamic");
-  expect_refused([](auto& r) { r.granularities = {"default", "dynamic:32"}; }, "dynamic:32");  // no serial or TBB word
+  expect_refused([](auto& r) { r.granularities = {"dynamic:0"}; }, "granularity");
   expect_refused([](auto& r) { r.study = "../x"; }, "study");
 }
 

@@ -10,7 +10,7 @@
 #include "harness/environment/environment.hpp"
 #include "harness/rows/writer.hpp"
 #include "lying_backends.hpp"
-#include "studies.hpp"
+#include "study_fixture.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -79,7 +79,7 @@ class resume : public study_test {
     EXPECT_EQ(text_of(path_), before);
   }
 
-  study_plan plan_ = plan_of({small_part("a", 2), small_part("b", 2)});
+  study_plan plan_ = study_of({small_part("a", 2), small_part("b", 2)});
 };
 
 TEST_F(resume, a_round_that_was_cut_is_voided_and_measured_again) {
@@ -184,7 +184,7 @@ TEST_F(resume, a_cut_file_is_found_under_the_results) {
   write_text(path_, text_of(path_) + "{\"kind\":");
   EXPECT_EQ(rows_path(folder_, plan_, false), path_);
   EXPECT_NE(rows_path(folder_, plan_, true), path_) << "a fresh one is wanted";
-  EXPECT_NE(rows_path(folder_, plan_of({small_part("other", 1)}), false), path_);
+  EXPECT_NE(rows_path(folder_, study_of({small_part("other", 1)}), false), path_);
   ASSERT_EQ(conduct_again(), 0);
   EXPECT_NE(rows_path(folder_, plan_, false), path_) << "it came to its end";
 }
@@ -227,6 +227,31 @@ TEST_F(resume, an_interrupt_voids_the_round_and_ends_without_an_end_row) {
   expect_whole();
 }
 
+TEST_F(resume, a_file_that_cannot_be_written_is_told_at_once_and_nothing_is_left) {
+  int launched = 0;
+  const launcher count = [&](const order&) {
+    ++launched;
+    return departure{2, 0, 0};
+  };
+  const std::string said =
+      refusal_of([&] { conduct_here(plan_, "/proc/none/rows.jsonl", registry::instance(), {count}); });
+  EXPECT_NE(said.find("cannot write rows"), std::string::npos) << said;
+  EXPECT_EQ(launched, 0);
+  EXPECT_EQ(conduct_with(count), 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_));
+}
+
+TEST_F(resume, of_a_new_file_two_studies_cannot_write) {
+  std::string said;
+  ASSERT_EQ(conduct_with(watched([&](const order& o, int) {
+              if (o.what == errand::measure && o.round == 1) said = refusal_of([&] { conduct_again(); });
+              return departure{};
+            })),
+            0);
+  EXPECT_NE(said.find("is being written by another"), std::string::npos) << said;
+  expect_whole();
+}
+
 TEST_F(resume, bad_input_that_a_process_finds_ends_the_study) {
   EXPECT_EQ(conduct_with(ending({2}, {2, 0, 0})), 2);
   EXPECT_EQ(voided(), (std::vector<int>{2}));
@@ -235,7 +260,7 @@ TEST_F(resume, bad_input_that_a_process_finds_ends_the_study) {
 
 TEST_F(resume, a_point_that_failed_before_is_not_forgotten) {
   const registry broken = broken_registry();
-  plan_ = plan_of({small_part("a", 2)});
+  plan_ = study_of({small_part("a", 2)});
   plan_.parts[0].request.backends = {"broken_none", "broken_drop_pair"};
   EXPECT_THROW(conduct_here(plan_, path_, broken,
                             {watched(

@@ -4,15 +4,52 @@
 #include "harness/environment/environment.hpp"
 #include "harness/rows/writer.hpp"
 #include "harness/run/worker.hpp"
-#include "studies.hpp"
+#include "study_fixture.hpp"
 
 namespace pairsum::harness {
 namespace {
 
 using rounds = study_test;
 
+TEST_F(rounds, are_closed_by_a_row_each_and_the_study_by_one) {
+  const study_plan plan = study_of({small_part("a", 2), small_part("b", 3)});
+  ASSERT_EQ(conduct_here(plan, path_), 0);
+  const rows_file rows = read_rows(path_);
+  std::map<std::string, std::vector<int>> replicates;
+  for (const round_row& r : rows.rounds) {
+    replicates[r.part].push_back(r.replicate);
+    EXPECT_EQ(r.rows, 2u);
+    EXPECT_EQ(r.plan, plan_hash(plan));
+    EXPECT_EQ(r.seed, 1u);
+  }
+  EXPECT_EQ(replicates, (std::map<std::string, std::vector<int>>{{"a", {1, 2}}, {"b", {1, 2, 3}}}));
+  ASSERT_EQ(rows.ends.size(), 1u);
+  EXPECT_EQ(rows.ends[0].plan, plan_hash(plan));
+  EXPECT_EQ(rows.valid_samples().size(), rows.samples.size());
+}
+
+TEST_F(rounds, a_part_for_which_the_budget_is_used_up_is_left_out_and_said) {
+  study_plan plan = study_of({small_part("first", 1000), small_part("second", 1000)});
+  plan.budget_s = 0.001;
+  ASSERT_EQ(conduct_here(plan, path_), 0);
+  const rows_file rows = read_rows(path_);
+  ASSERT_EQ(rows.rounds.size(), 1u);
+  EXPECT_EQ(rows.rounds[0].part, "first");
+  ASSERT_EQ(rows.ends.size(), 1u);
+  EXPECT_NE(rows.ends[0].reason.find("before every part was measured"), std::string::npos) << rows.ends[0].reason;
+}
+
+TEST_F(rounds, of_a_self_test_are_right_if_the_corrupt_are_refused) {
+  study_plan plan = study_of({small_part("a", 1)});
+  plan.parts[0].request.backends = {"symmetric_omp", "corrupt_symmetric_omp"};
+  plan.self_test = true;
+  EXPECT_EQ(conduct_here(plan, path_, registry_of(plan)), 0);
+  const rows_file rows = read_rows(path_);
+  EXPECT_TRUE(std::ranges::any_of(rows.samples, [](const sample& s) { return s.error.has_value(); }));
+}
+
 TEST_F(rounds, two_builds_measure_in_every_round_in_an_order_that_the_seed_decides) {
-  study_plan plan = plan_of({small_part("a", 12)});
+  study_plan plan = study_of({small_part("a", 12)});
   plan.builds = 2;
   std::map<int, std::string> measured;
   const auto build = [&](const std::string& name) {
@@ -34,7 +71,7 @@ TEST_F(rounds, two_builds_measure_in_every_round_in_an_order_that_the_seed_decid
 }
 
 TEST_F(rounds, a_build_that_is_cut_voids_the_round_of_both) {
-  study_plan plan = plan_of({small_part("a", 2)});
+  study_plan plan = study_of({small_part("a", 2)});
   plan.builds = 2;
   int calls = 0;
   const launcher sound = in_this_process(registry::instance());
@@ -50,7 +87,7 @@ TEST_F(rounds, a_build_that_is_cut_voids_the_round_of_both) {
 }
 
 TEST_F(rounds, a_build_that_measures_nothing_ends_the_study) {
-  study_plan plan = plan_of({small_part("a", 2)});
+  study_plan plan = study_of({small_part("a", 2)});
   plan.builds = 2;
   const launcher idle = [](const order&) { return departure{}; };
   EXPECT_EQ(conduct_here(plan, path_, registry::instance(), {in_this_process(registry::instance()), idle}), 2);
@@ -61,7 +98,7 @@ TEST_F(rounds, a_build_that_measures_nothing_ends_the_study) {
 }
 
 TEST_F(rounds, narrow_intervals_end_a_part_before_its_most_rounds) {
-  study_plan plan = plan_of({small_part("wide", 9), small_part("narrow", 30)});
+  study_plan plan = study_of({small_part("wide", 9), small_part("narrow", 30)});
   plan.parts[0].least_rounds = 1;
   plan.parts[0].half_width = 1e-300;
   plan.parts[1].least_rounds = 1;
@@ -99,7 +136,7 @@ class peaks : public study_test {
 
   int conduct_with(const launcher& l) { return conduct_here(plan_, path_, registry::instance(), {l}); }
 
-  study_plan plan_ = plan_of({small_part("a", 1)});
+  study_plan plan_ = study_of({small_part("a", 1)});
   int asked_ = 0;
 };
 

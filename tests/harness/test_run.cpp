@@ -1,32 +1,18 @@
-#include <gtest/gtest.h>
-
 #include <map>
 #include <set>
 
 #include "lying_backends.hpp"
-#include "studies.hpp"
+#include "study_fixture.hpp"
 
 namespace pairsum::harness {
 namespace {
 
-class run_test : public study_test {
- protected:
-  static run_request small() {
-    run_request r;
-    r.dx = {0.1};
-    r.states = {"perturbed"};
-    r.backends = {"naive", "symmetric_omp", "symmetric_tbb"};
-    r.M = {3, 6};
-    r.threads = {1, 2};
-    r.steps = 3;
-    r.repetitions = 2;
-    return r;
-  }
-};
+using run_test = study_test;
 
 TEST_F(run_test, writes_every_step_of_every_point_once_and_all_verified) {
-  ASSERT_EQ(measure_once(small(), path_), 0);
-  const rows_file rows = read_rows(path_);
+  const auto path = folder_ / "rows.jsonl";
+  ASSERT_EQ(run(small(), path), 0);
+  const rows_file rows = read_rows(path);
   const std::size_t points = 2 * (1 + 2 + 2);
   EXPECT_EQ(rows.samples.size(), points * 2 * 3);
   EXPECT_EQ(rows.environments.size(), 1u);
@@ -50,31 +36,59 @@ TEST_F(run_test, writes_every_step_of_every_point_once_and_all_verified) {
 }
 
 TEST_F(run_test, equal_bits_over_threads_and_runtimes_are_in_the_rows) {
-  ASSERT_EQ(measure_once(small(), path_), 0);
+  const auto path = folder_ / "rows.jsonl";
+  ASSERT_EQ(run(small(), path), 0);
   std::map<std::pair<int, int>, std::set<std::string>> bits;
-  for (const sample& s : read_rows(path_).samples)
+  for (const sample& s : read_rows(path).samples)
     if (s.point.backend.starts_with("symmetric")) bits[{s.point.M, s.step}].insert(*s.verify.fingerprint);
   for (const auto& [at, different] : bits) EXPECT_EQ(different.size(), 1u) << "M=" << at.first << " step " << at.second;
 }
 
+TEST_F(run_test, passes_of_parallel_backends_are_timed) {
+  const auto path = folder_ / "rows.jsonl";
+  ASSERT_EQ(run(small(), path), 0);
+  for (const sample& s : read_rows(path).samples) {
+    ASSERT_EQ(s.threads_busy_s.has_value(), s.point.backend != "naive") << s.point.backend;
+    EXPECT_EQ(s.threads_busy_s.has_value(), s.barrier_wait_s.has_value());
+    if (!s.threads_busy_s) continue;
+    ASSERT_EQ(s.threads_busy_s->size(), 8u) << "a pass per colour";
+    for (const auto& pass : *s.threads_busy_s) EXPECT_EQ(pass.size(), static_cast<std::size_t>(s.point.threads));
+  }
+}
+
+TEST_F(run_test, work_says_how_many_tests_folding_adds) {
+  const auto path = folder_ / "rows.jsonl";
+  ASSERT_EQ(run(small(), path), 0);
+  std::set<std::uint64_t> symmetric;
+  for (const sample& s : read_rows(path).samples) {
+    if (!s.work) continue;
+    ASSERT_TRUE(s.work->pairs_tested_unfolded);
+    EXPECT_LE(*s.work->pairs_tested_unfolded, s.work->pairs_tested);
+    if (s.point.backend != "naive") symmetric.insert(*s.work->pairs_tested_unfolded);
+  }
+  EXPECT_EQ(symmetric.size(), 1u) << "the same whatever M";
+}
+
 TEST_F(run_test, a_second_run_into_the_same_file_is_the_next_round) {
+  const auto path = folder_ / "rows.jsonl";
   run_request r = small();
   r.backends = {"naive"};
-  ASSERT_EQ(measure_once(r, path_), 0);
-  ASSERT_EQ(measure_once(r, path_), 0);
+  ASSERT_EQ(run(r, path), 0);
+  ASSERT_EQ(run(r, path), 0);
   std::set<int> rounds;
-  for (const sample& s : read_rows(path_).samples) rounds.insert(s.round);
+  for (const sample& s : read_rows(path).samples) rounds.insert(s.round);
   EXPECT_EQ(rounds, (std::set<int>{1, 2}));
 }
 
 TEST_F(run_test, a_wrong_backend_gets_an_error_row_and_never_a_time) {
   const registry broken = broken_registry();
+  const auto path = folder_ / "rows.jsonl";
   run_request r = small();
   r.backends = {"broken_none", "broken_drop_pair"};
   r.threads = {1};
-  EXPECT_EQ(measure_once(r, path_, broken), 1);
+  EXPECT_EQ(run(r, path, broken), 1);
   std::size_t good = 0, failed = 0;
-  for (const sample& s : read_rows(path_).samples) {
+  for (const sample& s : read_rows(path).samples) {
     if (s.point.backend == "broken_drop_pair") {
       EXPECT_TRUE(s.error);
       EXPECT_FALSE(s.phases);
@@ -96,16 +110,15 @@ TEST_F(run_test, every_stage_of_a_step_is_verified) {
   for (const auto& [integrator, step] : {std::pair{"rk2", 2}, {"predictor_corrector", 2}, {"rk4", 1}, {"euler", 3}}) {
     const auto path = folder_ / (std::string(integrator) + ".jsonl");
     r.integrators = {integrator};
-    r.repetitions = 1;
-    EXPECT_EQ(measure_once(r, path, lying), 1) << integrator;
+    EXPECT_EQ(run(r, path, lying), 1) << integrator;
     const rows_file rows = read_rows(path);
-    ASSERT_EQ(rows.samples.size(), 1u);
+    ASSERT_EQ(rows.samples.size(), 2u) << "one per repetition";
     ASSERT_TRUE(rows.samples[0].error);
     EXPECT_EQ(rows.samples[0].error->find("step " + std::to_string(step) + ":"), 0u) << *rows.samples[0].error;
   }
   r.integrators = {"rk2"};
   r.steps = 1;  // two sums, both right
-  EXPECT_EQ(measure_once(r, folder_ / "right.jsonl", lying), 0);
+  EXPECT_EQ(run(r, folder_ / "right.jsonl", lying), 0);
 }
 
 TEST_F(run_test, orders_of_memory_give_the_same_pairs) {
@@ -115,52 +128,22 @@ TEST_F(run_test, orders_of_memory_give_the_same_pairs) {
     run_request r = small();
     r.backends = {"symmetric"};
     r.orders = {order};
-    ASSERT_EQ(measure_once(r, path), 0) << order;
+    ASSERT_EQ(run(r, path), 0) << order;
     for (const sample& s : read_rows(path).samples)
       if (s.work) pairs.insert(s.work->pairs_interacting);
   }
   EXPECT_EQ(pairs.size(), 1u);
 }
 
-TEST_F(run_test, a_budget_ends_after_one_round_of_the_first_part_at_least) {
-  study_plan plan = plan_of({small_part("first", 1000), small_part("second", 1000)});
+TEST_F(run_test, a_budget_ends_after_one_round_at_least) {
+  const auto path = folder_ / "rows.jsonl";
+  study_plan plan = plan_of(small(), 1000000);
   plan.budget_s = 0.001;
-  ASSERT_EQ(conduct_here(plan, path_), 0);
-  const rows_file rows = read_rows(path_);
-  ASSERT_EQ(rows.rounds.size(), 1u);
-  EXPECT_EQ(rows.rounds[0].part, "first");
+  ASSERT_EQ(run(plan, path), 0);
+  const rows_file rows = read_rows(path);
+  EXPECT_EQ(rows.finished_rounds().size(), 1u);
   ASSERT_EQ(rows.ends.size(), 1u);
-  EXPECT_NE(rows.ends[0].reason.find("budget"), std::string::npos) << rows.ends[0].reason;
-}
-
-TEST_F(run_test, a_round_row_closes_each_round_and_an_end_row_the_study) {
-  const study_plan plan = plan_of({small_part("a", 2), small_part("b", 3)});
-  ASSERT_EQ(conduct_here(plan, path_), 0);
-  const rows_file rows = read_rows(path_);
-  std::map<std::string, std::vector<int>> replicates;
-  for (const round_row& r : rows.rounds) {
-    replicates[r.part].push_back(r.replicate);
-    EXPECT_EQ(r.rows, 2u);
-    EXPECT_EQ(r.plan, plan_hash(plan));
-    EXPECT_EQ(r.seed, 1u);
-  }
-  EXPECT_EQ(replicates, (std::map<std::string, std::vector<int>>{{"a", {1, 2}}, {"b", {1, 2, 3}}}));
-  ASSERT_EQ(rows.ends.size(), 1u);
-  EXPECT_EQ(rows.ends[0].plan, plan_hash(plan));
-  EXPECT_EQ(rows.valid_samples().size(), rows.samples.size());
-}
-
-TEST_F(run_test, passes_and_granularity_are_in_the_rows) {
-  run_request r = small();
-  r.backends = {"naive", "symmetric_omp"};
-  ASSERT_EQ(measure_once(r, path_), 0);
-  for (const sample& s : read_rows(path_).samples) {
-    EXPECT_EQ(s.point.granularity == "none", s.point.backend == "naive");
-    if (s.point.backend != "symmetric_omp") continue;
-    ASSERT_TRUE(s.threads_busy_s && s.barrier_wait_s);
-    ASSERT_EQ(s.threads_busy_s->size(), s.barrier_wait_s->size());
-    for (const auto& pass : *s.threads_busy_s) EXPECT_EQ(pass.size(), static_cast<std::size_t>(s.point.threads));
-  }
+  EXPECT_NE(rows.ends[0].reason.find("budget"), std::string::npos);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "harness/verify/verifier.hpp"
 #include "harness/verify/verify_all.hpp"
 #include "integrators/integrator.hpp"
-#include "studies.hpp"
+#include "study_fixture.hpp"
 #include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
@@ -209,7 +209,7 @@ TEST_F(self_test_run, measures_the_sound_copies_and_fails_the_corrupt) {
   request.backends.clear();
   for (const self_test_entry& e : built()) request.backends.push_back(std::string(e.word));
   if (request.backends.empty()) GTEST_SKIP() << "neither symmetric_omp nor naive_omp is in this build";
-  EXPECT_EQ(measure_once(request, path_, with_self_test(registry::instance())), 1);
+  EXPECT_EQ(run(request, path_, with_self_test(registry::instance())), 1);
   for (const sample& s : read_rows(path_).samples)
     EXPECT_EQ(s.error.has_value(), s.point.backend.starts_with("corrupt_")) << s.point.backend;
 }

@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "harness/plan/study.hpp"
 #include "harness/run/order.hpp"
-#include "studies.hpp"
+#include "study_fixture.hpp"
 
 namespace pairsum::harness {
 namespace {

@@ -30,8 +30,8 @@ ALLOWED = {  # folder: folders it may include, besides itself
     "harness/verify": ["core", "particles", "cases", "sum", "harness/measure"],
     "harness/self_test": ["core", "particles", "sum", "harness/measure"],
     "harness/run": ["core", "cases", "integrators", "sum", "harness/rows", "harness/plan", "harness/measure", "harness/verify",
-                    "harness/stats", "harness/environment"],
-    "harness/report": ["core", "harness/rows", "harness/stats"],
+                    "harness/stats", "harness/environment", "harness/model", "harness/self_test"],
+    "harness/report": ["core", "sum", "harness/rows", "harness/stats", "harness/model", "harness/self_test"],
     "harness/cli": ["core", "cases", "integrators", "sum", "harness/*"],
     "harness/gbench": ["core", "cases", "integrators", "sum", "harness/*", "grid", "smoothing", "particles"],
 }
@@ -97,6 +97,8 @@ def test_the_checker_rejects():
     assert complaints("kernels/sum/a.hpp", '#include <chrono>\n')
     assert complaints("harness/run/a.cpp", '#include "sum/block.hpp"\n')
     assert complaints("harness/report/a.cpp", '#include "harness/run/world.hpp"\n')
+    assert complaints("harness/report/a.cpp", '#include "sum/block.hpp"\n')
+    assert not complaints("harness/report/a.cpp", '#include "sum/registry.hpp"\n#include "harness/model/cost.hpp"\n')
     assert complaints("harness/cli/a.cpp", '#include "grid/hashed_grid.hpp"\n')
     assert complaints("harness/cli/a.cpp", '#include "backends/naive.hpp"\n')
     assert complaints("harness/gbench/a.cpp", '#include "backends/naive.hpp"\n')

@@ -1,7 +1,6 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "harness/report/report.hpp"
@@ -11,7 +10,7 @@
 
 namespace pairsum::harness {
 using nlohmann::json;
-using synthetic::write_point;
+using synthetic::made_point;
 
 /// Reports of made-up rows.
 class report : public scratch {
@@ -19,28 +18,31 @@ class report : public scratch {
   std::filesystem::path rows_path() const { return file("talk/rows.jsonl"); }
 
   /// The talk's comparisons with known times.
-  void write_all() const {
+  static std::vector<made_point> talk() {
+    return {{"naive", 6, 1, 1.0},         {"naive", 7, 1, 0.8},         {"symmetric", 6, 1, 0.5},
+            {"naive_omp", 6, 2, 0.6},     {"symmetric_omp", 6, 1, 0.5}, {"symmetric_omp", 6, 2, 0.3},
+            {"symmetric_tbb", 6, 1, 0.5}, {"symmetric_tbb", 6, 2, 0.2}, {"symmetric_tbb", 6, 4, 0.2, 5}};
+  }
+
+  /// A rows file of a study.
+  void write(const std::vector<made_point>& points, int rounds = 6) const {
     row_writer writer(rows_path());
     writer.write(example::environment());
-    write_point(writer, "naive", 6, 1, 1.0);
-    write_point(writer, "naive", 7, 1, 0.8);
-    write_point(writer, "symmetric", 6, 1, 0.5);
-    write_point(writer, "naive_omp", 6, 2, 0.6);
-    write_point(writer, "symmetric_omp", 6, 1, 0.5);
-    write_point(writer, "symmetric_omp", 6, 2, 0.3);
-    write_point(writer, "symmetric_tbb", 6, 1, 0.5);
-    write_point(writer, "symmetric_tbb", 6, 2, 0.2);
-    write_point(writer, "symmetric_tbb", 6, 4, 0.2, 5);
+    synthetic::write_rounds(writer, points, rounds);
   }
 
   json make(bool allow_mixed = false) {
-    report_options options;
-    options.summary_path = file("out/summary.json");
-    options.allow_mixed = allow_mixed;
-    text_ = make_report({file("talk")}, options);
-    return json::parse(get(options.summary_path));
+    text_ = make_report({file("talk")}, {file("out"), allow_mixed});
+    return json::parse(get(file("out/summary.json")));
   }
 
+  /// The summary of a study.
+  json summary_of(const std::vector<made_point>& points, int rounds = 6) {
+    write(points, rounds);
+    return make();
+  }
+
+  /// The one entry (or entry of a point) that has these values; null if there is none.
   static json only(const json& entries, const json& wanted) {
     json found;
     for (const json& entry : entries) {
@@ -62,5 +64,7 @@ class report : public scratch {
 
   std::string text_;
 };
+
+#define EXPECT_VALUE(entry, expected) EXPECT_NEAR((entry).get<double>(), expected, 1e-9 * (expected))
 
 }  // namespace pairsum::harness

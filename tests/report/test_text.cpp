@@ -3,10 +3,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "harness/report/report.hpp"
 #include "harness/report/text_table.hpp"
-#include "tests/report/synthetic.hpp"
-#include "tests/rows/scratch.hpp"
+#include "tests/report/made_builds.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -35,30 +33,43 @@ TEST(text_table, milliseconds) {
   EXPECT_EQ(ms(std::nan("")), "-");
 }
 
-class tables : public scratch {};
+/// Everything at once: all kinds of backends, two builds, self-tests, a failed point.
+std::vector<made_point> everything() {
+  std::vector<made_point> points;
+  for (const char* runtime : {"", "_omp", "_tbb"})
+    for (const char* algorithm : {"naive", "symmetric", "pair_list", "coloured"})
+      for (const int M : {6, 7})
+        for (const int threads : {1, 2, 4, 8, 16})
+          if (*runtime != '\0' || threads == 1)
+            points.push_back({algorithm + std::string(runtime), M, threads, 12.5 / threads, 6, [](sample& s) {
+                                s.threads_busy_s = thread_times{{0.5, 0.25}};
+                                s.barrier_wait_s = thread_times{{0.0, 0.25}};
+                              }});
+  points.push_back({"slowed_20_symmetric_omp", 7, 2, 12.5});
+  points.push_back({"corrupt_symmetric_omp", 7, 2, 1.0, 6, [](sample& s) {
+                      s.phases.reset();
+                      s.error = "particle 7: relative error 0.5 above its bound 1e-14, and so it goes on for a while";
+                    }});
+  return points;
+}
 
-TEST_F(tables, fit_120_columns_and_say_what_they_show) {
-  const auto path = file("talk/rows.jsonl");
-  {
-    row_writer writer(path);
-    writer.write(example::environment());
-    for (const char* runtime : {"", "_omp", "_tbb"})
-      for (const char* algorithm : {"naive", "symmetric", "pair_list", "coloured"})
-        for (const int M : {6, 7})
-          for (const int threads : {1, 2, 4, 8, 16}) {
-            if (*runtime == '\0' && threads > 1) continue;
-            synthetic::write_point(writer, algorithm + std::string(runtime), M, threads, 12.5 / threads);
-          }
-  }
-  const std::string text = make_report({path}, {file("summary.json"), false});
-  std::istringstream lines(text);
+TEST_F(report, text_tables_fit_120_columns_and_say_what_they_show) {
+  const environment_row gcc = synthetic::build('1', "GNU 12.2.0"), clang = synthetic::build('2', "Clang 14.0.6");
+  std::vector<made_point> points;
+  for (const made_point& p : everything()) points.push_back(synthetic::by(gcc, p));
+  points.push_back(synthetic::by(clang, {"naive", 6, 1, 12.0}));
+  synthetic::write_builds(rows_path(), {gcc, clang}, points);
+  make();
+  std::istringstream lines(text_);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
   for (const char* heading :
-       {"== dam_break, rest, dx 0.00594: ", "\nSummation time per step: ", "\nAlgorithm speedup: ",
-        "\nOpenMP against TBB: ", "\nComparison over M: ", "\nPhases per step: ", "\nCaveats: "})
-    EXPECT_CONTAINS("\n" + text, heading);
-  EXPECT_CONTAINS(text, "threads 16");
-  EXPECT_CONTAINS(text, "[   10000,    17500]");
+       {"On node (some model", "\nIs the symmetric sum twice",
+        "\n== dam_break, rest, dx 0.00594: ", "\nSummation time per step: ", "\nAlgorithm speedup: ",
+        "\nOpenMP against TBB: ", "\nComparison over M: ", "\nAgainst the least time",
+        "\nPhases per step: ", "\nBuilds: ", "\nSelf-test: ", "\nFailed points: ", "\nCaveats: "})
+    EXPECT_CONTAINS("\n" + text_, heading);
+  EXPECT_CONTAINS(text_, "threads 16");
+  EXPECT_CONTAINS(text_, "[   10000,    17500]");
 }
 
 }  // namespace

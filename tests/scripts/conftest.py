@@ -14,11 +14,15 @@ PAIRSUM = """#!/bin/bash
 echo "pairsum $*" >>"$LOG"
 out= previous=
 for argument; do
-  case $previous in --out | --summary) out=$argument ;; esac
+  [[ $previous != --out ]] || out=$argument
   previous=$argument
 done
-if [[ $1 == run ]]; then mkdir -p "$(dirname "$out")"; echo "{${STUB_ROW-\\"kind\\":\\"sample\\"}}" >>"$out"; echo "rows: $out"; fi
-if [[ $1 == report ]]; then echo "a table"; echo '{}' >"$out"; fi
+if [[ $1 == run ]]; then
+  mkdir -p "$(dirname "$out")"
+  echo "{${STUB_ROW-\\"kind\\":\\"round\\"}}" >>"$out"
+  echo "rows: $out"
+fi
+if [[ $1 == report ]]; then mkdir -p "${2%.jsonl}"; echo "a table"; fi
 if [[ "$*" == *"${STUB_SLOW-nothing}"* ]]; then exec sleep "${STUB_SECONDS:-1}"; fi
 if [[ "$*" == *"${STUB_FAILS-nothing}"* ]]; then exit "$STUB_STATUS"; fi
 """
@@ -32,6 +36,9 @@ exit "${STUB_CMAKE_STATUS:-0}"
 """
 LOGS = """#!/bin/bash
 echo "${0##*/} $*" >>"$LOG"
+"""
+PYTHON = LOGS + """if [[ "$*" == *get*answer* ]]; then echo "the answer"; fi
+if [[ "$*" == *"${STUB_PYTHON_FAILS-no such call}"* ]]; then exit 6; fi
 """
 
 
@@ -49,7 +56,7 @@ class Sandbox:
         self.stubs.mkdir()
         self.log.touch()
         for name, text in {"pairsum": PAIRSUM, "cmake": CMAKE, "ctest": LOGS,
-                           "python": LOGS}.items():
+                           "python": PYTHON}.items():
             self.stub(name, text)
         self.environment = {"PATH": f"{self.stubs}:/usr/bin:/bin", "LOG": str(self.log),
                             "STUBS": str(self.stubs), "PYTHON": str(self.stubs / "python"),

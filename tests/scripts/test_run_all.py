@@ -1,4 +1,4 @@
-"""run_all.sh with stubs of cmake, pairsum and Python: the order of its parts, its time, its ends."""
+"""run_all.sh with stubs of cmake, pairsum and Python: the order of its steps, its time, its ends."""
 import os
 import re
 import signal
@@ -26,73 +26,63 @@ def test_bad_input(sandbox, arguments):
     assert len(done.stderr.splitlines()) == 1 and done.stderr.startswith("run_all.sh: ")
 
 
+def budgets(sandbox):
+    return [int(value(call, "--budget")) for call in sandbox.calls("pairsum run")]
+
+
 def test_the_full_run(sandbox):
     done = sandbox.run("./run_all.sh", "--no-install", "--jobs", "3", OMP_NUM_THREADS="1")
     assert done.returncode == 0, done.stderr
-    calls = [call for call in sandbox.calls() if not call.startswith("python -c")]
+    calls = sandbox.calls("cmake") + sandbox.calls("pairsum") + sandbox.calls("python plots")
     assert calls[0] == "cmake --preset study"
     assert calls[1] == "cmake --build --preset study --target pairsum --parallel 3"
     assert calls[2].startswith("pairsum verify ")
-    runs = calls[3:8]
-    assert all(run.startswith("pairsum run ") for run in runs)
-    assert [value(run, "--study") for run in runs] == ["talk"] * 3 + ["m_sweep"] * 2
-    assert [value(run, "--state") for run in runs] == ["rest", "perturbed"] + ["rest"] * 3
-    assert [value(run, "--dx") for run in runs] == ["0.00594"] * 4 + ["0.02"]
-    assert [value(run, "--threads") for run in runs[:3]] == ["all", "all", "1"]
-    assert value(runs[3], "--threads") == value(runs[4], "--threads") == str(
-        len(os.sched_getaffinity(0)))
-    assert value(runs[0], "--backend") == "naive_omp,symmetric_omp,naive_tbb,symmetric_tbb"
-    assert value(runs[2], "--backend") == "naive,pair_list,sphysics_sweep,ppm_stencil,symmetric"
-    assert value(runs[3], "--M") == "5,6,7,8,9"
-    assert value(runs[4], "--M") == "2,3,4,5,6,7,8,9"
-    outs = sorted({value(run, "--out") for run in runs})
-    assert [os.path.dirname(out) for out in outs] == ["results/m_sweep", "results/talk"]
-    stem = os.path.basename(outs[1])[:-len(".jsonl")]
+    runs = calls[3:5]
+    assert [run.split(" --")[0] for run in runs] == ["pairsum run talk", "pairsum run m_sweep"]
+    outs = [value(run, "--out") for run in runs]
+    assert [os.path.dirname(out) for out in outs] == ["results/talk", "results/m_sweep"]
+    stem = os.path.basename(outs[0])[:-len(".jsonl")]
     assert re.fullmatch(r"\S+-\d{8}T\d{6}Z-(nogit|[0-9a-f]+)(-dirty)?", stem)
     folders = [f"results/{study}/{stem}" for study in ("talk", "m_sweep")]  # one report per rows file
-    assert calls[8:] == (
-        [f"pairsum report {folder}.jsonl --summary {folder}/summary.json" for folder in folders]
-        + [f"python plots/plot.py {folder}/summary.json --out {folder}" for folder in folders])
-    for folder in folders:
-        assert (sandbox.tree / folder / "tables.txt").read_text() == "a table\n"
+    assert calls[5:] == [f"pairsum report {folder}.jsonl" for folder in folders] + [
+        f"python plots/{made} {folder}/summary.json --out {folder}{page}" for folder in folders
+        for made, page in (("plot.py", ""), ("report.py", "/report.html"))]
     for text in ("a table", f"results/talk/{stem}/tables.txt", f"results/talk/{stem}/summary.json",
                  f"results/talk/{stem}/*.svg", f"results/m_sweep/{stem}.jsonl"):
         assert text in done.stdout
+    assert done.stdout.splitlines()[-4:] == [
+        "talk: the answer", f"look at it: results/talk/{stem}/report.html",
+        "m_sweep: the answer", f"look at it: results/m_sweep/{stem}/report.html"]
     assert "\033" not in done.stdout + done.stderr
 
 
 def test_budgets_fit_into_the_limit(sandbox):
-    """A part may take its share of what is left; what the stub leaves unused goes to the later ones."""
+    """talk may take three quarters of what is left; what the stub leaves unused goes to m_sweep."""
     assert sandbox.run("./run_all.sh", "--no-install").returncode == 0
-    budgets = [int(value(call, "--budget")) for call in sandbox.calls("pairsum run")]
-    left = 900 - 45
-    assert budgets[0] in range(left * 11 // 23 - 5, left * 11 // 23 + 1)
-    assert budgets[1] in range(left * 6 // 12 - 5, left * 6 // 12 + 1)
-    assert max(budgets) <= left
+    left = 900 - 75
+    talk, m_sweep = budgets(sandbox)
+    assert talk in range(left * 3 // 4 - 5, left * 3 // 4 + 1)
+    assert m_sweep in range(left * 19 // 20 - 5, left + 1)
 
 
-def test_budgets_shrink_with_the_time_that_passed(sandbox):
-    def budgets():
-        found = [int(value(call, "--budget")) for call in sandbox.calls("pairsum run")]
-        sandbox.log.write_text("")
-        return found
-
-    assert sandbox.run("./run_all.sh", "--no-install", "--quick").returncode == 0
-    unhurried = budgets()
-    done = sandbox.run("./run_all.sh", "--no-install", "--quick", STUB_SLOW="rest --backend naive_omp,symmetric_omp,naive", STUB_SECONDS="5")
+def test_the_budget_shrinks_with_the_time_that_passed(sandbox):
+    assert sandbox.run("./run_all.sh", "--no-install").returncode == 0
+    unhurried = budgets(sandbox)
+    sandbox.log.write_text("")
+    done = sandbox.run("./run_all.sh", "--no-install", STUB_SLOW="run talk", STUB_SECONDS="5")
     assert done.returncode == 0
-    slow = budgets()
-    assert all(late < early for late, early in zip(slow[1:], unhurried[1:], strict=True))
+    slow = budgets(sandbox)
+    assert slow[1] <= unhurried[1] - 3
 
 
-def test_quick_runs_a_small_case_into_its_own_folder(sandbox):
+def test_quick_carries_out_one_small_study(sandbox):
     done = sandbox.run("./run_all.sh", "--quick", "--no-install")
     assert done.returncode == 0, done.stderr
-    runs = sandbox.calls("pairsum run")
-    assert {value(run, "--dx") for run in runs} == {"0.02", "0.03"}
-    assert {value(run, "--study") for run in runs} == {"quick"}
-    assert {os.path.dirname(value(run, "--out")) for run in runs} == {"results/quick"}
-    assert all(int(value(run, "--budget")) <= 120 for run in runs)
+    run, = sandbox.calls("pairsum run")
+    assert run.startswith("pairsum run quick ")
+    assert os.path.dirname(value(run, "--out")) == "results/quick"
+    assert 75 <= budgets(sandbox)[0] <= 90
+    assert done.stdout.splitlines()[-1].endswith("/report.html")
 
 
 def test_works_from_anywhere_and_with_another_results_folder(sandbox, tmp_path):
@@ -101,7 +91,7 @@ def test_works_from_anywhere_and_with_another_results_folder(sandbox, tmp_path):
     assert done.returncode == 0, done.stderr
     assert len(list((tmp_path / "my results/quick").glob("*.jsonl"))) == 1
     assert not (sandbox.tree / "results").exists()
-    assert re.search(r"^tables:  my results/quick/\S+/tables.txt$", done.stdout, re.MULTILINE)
+    assert re.search(r"^tables:  my results/quick/\S+/tables.txt, tables.md, csv/$", done.stdout, re.MULTILINE)
 
 
 def test_a_second_run_keeps_the_files_of_the_first(sandbox):
@@ -109,7 +99,7 @@ def test_a_second_run_keeps_the_files_of_the_first(sandbox):
     time.sleep(1.1)
     sandbox.run("./run_all.sh", "--quick", "--no-install")
     files = list((sandbox.tree / "results/quick").glob("*.jsonl"))
-    assert len(files) == 2 and all(len(file.read_text().splitlines()) == 4 for file in files)
+    assert len(files) == 2 and all(len(file.read_text().splitlines()) == 1 for file in files)
 
 
 def test_a_failed_verification_stops_before_measuring(sandbox):
@@ -119,7 +109,7 @@ def test_a_failed_verification_stops_before_measuring(sandbox):
     assert sandbox.calls("pairsum run") == []
 
 
-@pytest.mark.parametrize("what, status", [("0.00594 --state perturbed", 2), ("report", 5)])
+@pytest.mark.parametrize("what, status", [("run m_sweep", 2), ("report", 5)])
 def test_a_failing_step_stops_with_its_exit_code(sandbox, what, status):
     done = sandbox.run("./run_all.sh", "--no-install", STUB_FAILS=what, STUB_STATUS=str(status))
     assert done.returncode == status
@@ -136,11 +126,19 @@ def test_a_failing_build_stops(sandbox):
     assert done.returncode == 4
 
 
-def test_with_too_little_time_only_the_first_part_is_measured(sandbox):
-    done = sandbox.run("./run_all.sh", "--no-install", "--quick", "--limit", "5")
+def test_a_failing_page_stops(sandbox):
+    done = sandbox.run("./run_all.sh", "--no-install", "--quick", STUB_PYTHON_FAILS="plots/report.py")
+    assert done.returncode == 6
+    assert "making the page failed (exit 6); finished rounds are kept in results/quick/" in done.stderr
+    assert "to go on" not in done.stderr
+
+
+def test_with_too_little_time_only_the_first_study_is_measured(sandbox):
+    done = sandbox.run("./run_all.sh", "--no-install", "--limit", "85")
     assert done.returncode == 0, done.stderr
-    assert len(sandbox.calls("pairsum run")) == 1
-    assert done.stdout.count("left out") == 3
+    run, = sandbox.calls("pairsum run")
+    assert run.startswith("pairsum run talk ") and budgets(sandbox) == [180]  # one round in any case
+    assert done.stdout.count("left out") == 1
     assert len(sandbox.calls("pairsum report")) == 1
 
 
@@ -151,19 +149,17 @@ def test_nothing_measured_is_no_success(sandbox):
     assert sandbox.calls("pairsum report") == []
 
 
-def test_a_hanging_part_is_cut_short(sandbox):
-    done = sandbox.run("./run_all.sh", "--no-install", "--quick", "--limit", "22",
-                       STUB_SLOW="perturbed --backend", STUB_SECONDS="50")
+def test_a_hanging_study_is_cut_short(sandbox):
+    done = sandbox.run("./run_all.sh", "--no-install", "--quick", "--limit", "5",
+                       STUB_SLOW="run quick", STUB_SECONDS="50")
     assert done.returncode == 0, done.stderr
-    assert "'parallel algorithms, perturbed' was cut short by the time limit" in done.stderr
-    assert len(sandbox.calls("pairsum run")) == 2
-    assert done.stdout.count("left out") == 2
+    assert "the study quick was cut short by the time limit" in done.stderr
     assert len(sandbox.calls("pairsum report")) == 1
 
 
 @pytest.mark.parametrize("sent, status", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_ends_at_once_and_says_what_is_kept(sandbox, sent, status):
-    running = sandbox.start("./run_all.sh", "--no-install", "--quick", STUB_SLOW="run",
+    running = sandbox.start("./run_all.sh", "--no-install", "--quick", STUB_SLOW="run quick",
                             STUB_SECONDS="50")
     began = time.monotonic()
     while not sandbox.calls("pairsum run") and time.monotonic() - began < 20:
@@ -172,5 +168,8 @@ def test_an_interrupt_ends_at_once_and_says_what_is_kept(sandbox, sent, status):
     os.kill(running.pid, sent)
     _, errors = running.communicate(timeout=10)
     assert running.returncode == status
-    assert "interrupted" in errors and "kept in results/quick" in errors
+    out = value(sandbox.calls("pairsum run")[0], "--out")
+    assert errors.splitlines()[-1] == (
+        f"run_all.sh: interrupted; finished rounds are kept in {out}; "
+        f"to go on: build/study/bin/pairsum run quick --out {out}")
     assert sandbox.calls("pairsum report") == []

@@ -4,24 +4,57 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 
+#include "core/error.hpp"
 #include "harness/rows/reader.hpp"
 #include "harness/run/study.hpp"
+#include "harness/run/worker.hpp"
 
 namespace pairsum::harness {
 
-/// A folder of its own for each test, away afterwards.
+/// Studies in this process, in a folder of their own.
 class study_test : public ::testing::Test {
  protected:
   study_test()
       : folder_(std::filesystem::path(testing::TempDir()) /
-                ("pairsum_" + std::to_string(getpid()) + "_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())),
+                (std::string("pairsum_") + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+                 std::to_string(::getpid()))),
         path_(folder_ / "rows.jsonl") {
     std::filesystem::remove_all(folder_);
   }
   ~study_test() override { std::filesystem::remove_all(folder_); }
+
+  static run_request small() {
+    run_request r;
+    r.dx = {0.08};
+    r.states = {"perturbed"};
+    r.backends = {"naive", "symmetric_omp", "symmetric_tbb"};
+    r.M = {3, 6};
+    r.threads = {1, 2};
+    r.steps = 3;
+    r.repetitions = 2;
+    return r;
+  }
+
+  static study_plan plan_of(const run_request& r, int rounds = 1) {
+    study_plan plan;
+    plan.study = r.study;
+    part_plan part;
+    part.request = r;
+    part.least_rounds = part.most_rounds = rounds;
+    plan.parts.push_back(part);
+    return plan;
+  }
+
+  static int run(const study_plan& plan, const std::filesystem::path& path,
+                 const registry& all = registry::instance()) {
+    return conduct(plan, {path, "cores_first", {in_this_process(all)}}, all);
+  }
+  static int run(const run_request& r, const std::filesystem::path& path, const registry& all = registry::instance()) {
+    return run(plan_of(r), path, all);
+  }
 
   std::filesystem::path folder_, path_;
 };
@@ -40,7 +73,7 @@ inline part_plan small_part(const std::string& name, int rounds) {
   return p;
 }
 
-inline study_plan plan_of(std::vector<part_plan> parts) {
+inline study_plan study_of(std::vector<part_plan> parts) {
   study_plan plan;
   plan.study = "test";
   plan.title = "A test";
@@ -55,17 +88,6 @@ inline int conduct_here(const study_plan& plan, const std::filesystem::path& out
   return conduct(plan, {out, "none", std::move(builds)}, all);
 }
 
-/// One part, one round.
-inline int measure_once(const run_request& r, const std::filesystem::path& out,
-                        const registry& all = registry::instance()) {
-  part_plan part;
-  part.request = r;
-  part.least_rounds = part.most_rounds = 1;
-  study_plan plan = plan_of({part});
-  plan.study = r.study;
-  return conduct_here(plan, out, all);
-}
-
 inline std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -74,6 +96,17 @@ inline std::string text_of(const std::filesystem::path& path) {
 inline void write_text(const std::filesystem::path& path, const std::string& text) {
   std::filesystem::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << text;
+}
+
+/// The message of the pairsum::error that f throws, or "".
+template <class F>
+std::string refusal_of(F&& f) {
+  try {
+    f();
+  } catch (const error& e) {
+    return e.what();
+  }
+  return "";
 }
 
 }  // namespace pairsum::harness

@@ -1,0 +1,61 @@
+#include "harness/report/study_facts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace pairsum::harness {
+namespace {
+
+/// Above this share of the machine's time used by others, a round counts as disturbed.
+constexpr double disturbing_share = 0.05;
+
+}  // namespace
+
+void add_peak(measurements& all, const peak_row& p) {
+  for (peak_row& known : all.peaks)
+    if (known.environment == p.environment && known.threads == p.threads && known.precision == p.precision) {
+      known.bandwidth_bytes_per_s = std::max(known.bandwidth_bytes_per_s, p.bandwidth_bytes_per_s);
+      known.flops_per_s = std::max(known.flops_per_s, p.flops_per_s);
+      return;
+    }
+  all.peaks.push_back(p);
+}
+
+void add_rounds(measurements& all, const rows_file& file) {
+  std::size_t disturbed = 0;
+  for (const round_row& r : file.finished_rounds()) {
+    ++all.finished_rounds;
+    if (!r.others_share) continue;
+    all.others_share = std::max(all.others_share.value_or(0), *r.others_share);
+    disturbed += *r.others_share > disturbing_share;
+  }
+  all.void_rounds += file.voids.size();
+  if (disturbed > 0)
+    all.caveats.push_back(fmt::format("{}: in {} of {} rounds other processes used more than {:.0f} % of the machine",
+                                      file.path.filename().string(), disturbed, file.finished_rounds().size(),
+                                      100 * disturbing_share));
+}
+
+void add_environment_caveats(measurements& all, const std::string& differences) {
+  if (!differences.empty())
+    all.caveats.push_back((all.compares_builds ? "the builds differ, which is what is compared: "
+                                               : "rows of different machines or builds in one report: ") +
+                          differences);
+  std::set<std::string> governors;
+  bool dirty = false;
+  for (const environment_row& e : all.environments) {
+    governors.insert(e.governor.value_or("unknown"));
+    dirty = dirty || e.dirty;
+  }
+  if (dirty) all.caveats.push_back("built from a tree with uncommitted changes");
+  for (const environment_row& e : all.environments)
+    if (e.binding.starts_with("none")) {
+      all.caveats.push_back("threads were not pinned (" + e.binding + ")");
+      break;
+    }
+  if (governors.size() > 1) all.caveats.push_back("rows with different frequency governors");
+}
+
+}  // namespace pairsum::harness

@@ -1,0 +1,296 @@
+"""Plans, what is said about them before and while they run, and comparing what they measured."""
+
+import json
+import os
+import pty
+import re
+import select
+import signal
+import subprocess
+import time
+
+import pytest
+from conftest import BIN, SMALL, refused
+
+PLAN = {
+    "schema": "pairsum.plan/1",
+    "study": "mine",
+    "title": "a plan of a test",
+    "defaults": {"case": "dam_break", "dx": 0.08, "M": 3, "threads": 1, "steps": 2, "rounds": 6},
+    "parts": [
+        {"name": "both", "reason": "to have two", "backend": "naive,symmetric"},
+        {"name": "alone", "backend": "naive", "state": "perturbed", "rounds": [6, 8]},
+    ],
+}
+
+
+@pytest.fixture
+def plan(tmp_path):
+    """Writes a plan file: PLAN with some keys changed, or any text."""
+
+    def write(text=None, **changes):
+        path = tmp_path / "plan.json"
+        path.write_text(json.dumps({**PLAN, **changes}) if text is None else text)
+        return path
+
+    return write
+
+
+@pytest.fixture
+def files(tmp_path):
+    """The files in the folder that tests run in, without plan files."""
+    return lambda: sorted(p.name for p in tmp_path.rglob("*") if p.suffix != ".json" or p.is_dir())
+
+
+# ---------------------------------------------------------------------------------------------- before it is measured
+
+
+def test_dry_run_prints_the_design_and_writes_nothing(pairsum, plan, files):
+    done = pairsum("run", plan(), "--dry-run")
+    assert done.returncode == 0, done.stderr
+    assert "mine: a plan of a test" in done.stdout and "because: to have two" in done.stdout
+    assert re.search(r"^part both: 2 points, 6 rounds", done.stdout, re.M)
+    assert re.search(r"^part alone: 1 points, 6 to 8 rounds", done.stdout, re.M)
+    assert re.search(r"^  backend +naive, symmetric$", done.stdout, re.M)
+    assert re.search(r"about \d+ (s|min|h)", done.stdout.splitlines()[-1])
+    assert files() == []
+
+
+@pytest.mark.parametrize("name", ["quick", "talk", "size", "m_sweep", "granularity", "compilers", "self_test"])
+def test_plans_that_come_with_the_program(pairsum, files, tmp_path, name):
+    shown = pairsum("run", name, "--show-plan")
+    assert shown.returncode == 0, shown.stderr
+    plan = json.loads(shown.stdout)
+    assert plan["schema"] == "pairsum.plan/1" and plan["study"] == name
+    if name not in ("quick", "self_test"):
+        return  # a dry run of these makes the points of large worlds
+    (tmp_path / "shown.json").write_text(shown.stdout)
+    done = pairsum("run", "shown.json", "--dry-run")
+    assert done.returncode == 0, done.stderr
+    for part in plan["parts"]:
+        assert f"part {part['name']}: " in done.stdout
+    assert json.loads(pairsum("run", "shown.json", "--show-plan").stdout) == plan
+    assert files() == []
+
+
+def test_options_show_themselves_as_a_plan(pairsum, tmp_path, files):
+    shown = pairsum("run", *SMALL, "--backend", "naive", "--show-plan")
+    assert shown.returncode == 0, shown.stderr
+    (tmp_path / "shown.json").write_text(shown.stdout)
+    done = pairsum("run", "shown.json", "--dry-run")
+    assert done.returncode == 0 and "1 points, 1 rounds" in done.stdout
+    assert files() == []
+
+
+def test_options_that_a_plan_may_have_beside_it(pairsum, plan):
+    shown = pairsum("run", plan(), "--rounds", "7", "--half-width", "0.25", "--budget", "33", "--seed", "9", "--show-plan")
+    assert shown.returncode == 0, shown.stderr
+    said = json.loads(shown.stdout)
+    assert said["budget_s"] == 33
+    assert [(p["rounds"], p["half_width"], p["seed"]) for p in said["parts"]] == 2 * [([7, 7], 0.25, 9)]
+
+
+@pytest.mark.parametrize("option, value", [("--dx", "0.1"), ("--backend", "naive"), ("--M", "6"), ("--threads", "1"), ("--state", "rest"),
+                                           ("--steps", "3"), ("--repetitions", "2"), ("--dt", "1e-4"), ("--granularity", "default"),
+                                           ("--study", "other")])
+def test_factors_beside_a_plan_are_refused(pairsum, plan, files, option, value):
+    assert refused(pairsum("run", plan(), option, value, "--out", "rows.jsonl"), option, "plan")
+    assert files() == []
+
+
+# ---------------------------------------------------------------------------------------------------- plans that are wrong
+
+
+def test_unknown_plan_lists_the_plans(pairsum, files):
+    assert refused(pairsum("run", "nope"), "nope", "quick", "talk", "self_test", "granularity")
+    assert files() == []
+
+
+TEXT = json.dumps(PLAN)
+FIRST = PLAN["parts"][0]
+
+
+@pytest.mark.parametrize("text, says", [
+    ("", ["plan.json"]),
+    (TEXT[:-1], ["plan.json"]),
+    (TEXT[: len(TEXT) // 2], ["plan.json"]),
+    ("no JSON at all", ["plan.json"]),
+    ("\0\1\2", ["plan.json"]),
+    (TEXT + "}", ["plan.json"]),
+    ("[1,2]", ["object"]),
+    ("null", ["object"]),
+    ("{}", ["schema", "pairsum.plan/1"]),
+])
+def test_files_that_are_no_plans(pairsum, plan, files, text, says):
+    assert refused(pairsum("run", plan(text), "--out", "rows.jsonl"), *says)
+    assert files() == []
+
+
+@pytest.mark.parametrize("changes, says", [
+    ({"schema": "pairsum.plan/9"}, ["schema", "pairsum.plan/1", "pairsum.plan/9"]),
+    ({"schema": 1}, ["schema", "pairsum.plan/1"]),
+    ({"colour": "red"}, ["colour", "not known"]),
+    ({"study": "a/b"}, ["study", "a/b"]),
+    ({"study": ""}, ["study"]),
+    ({"study": 3}, ["study", "3"]),
+    ({"budget_s": -1}, ["budget_s", "-1"]),
+    ({"budget_s": "long"}, ["budget_s", "long"]),
+    ({"parts": []}, ["parts"]),
+    ({"parts": {}}, ["parts"]),
+    ({"parts": [1]}, ["parts"]),
+    ({"parts": [FIRST, FIRST]}, ["both"]),
+    ({"parts": [{"backend": "naive"}]}, ["name"]),
+    ({"parts": [{**FIRST, "colour": "red"}]}, ["colour", "not known", "backend"]),
+    ({"parts": [{**FIRST, "backend": "nope"}]}, ["nope", "naive_omp"]),
+    ({"parts": [{**FIRST, "backend": 3}]}, ["backend", "3"]),
+    ({"parts": [{**FIRST, "backend": []}]}, ["backend"]),
+    ({"parts": [{**FIRST, "M": 1}]}, ["M must be between 2 and 10"]),
+    ({"parts": [{**FIRST, "M": "9..5"}]}, ["M"]),
+    ({"parts": [{**FIRST, "threads": 0}]}, ["threads"]),
+    ({"parts": [{**FIRST, "dx": -0.1}]}, ["dx must be a positive"]),
+    ({"parts": [{**FIRST, "rounds": 0}]}, ["rounds", "0"]),
+    ({"parts": [{**FIRST, "rounds": [8, 6]}]}, ["rounds", "8"]),
+    ({"parts": [{**FIRST, "rounds": "many"}]}, ["rounds", "many"]),
+    ({"parts": [{**FIRST, "share": 0}]}, ["share"]),
+    ({"parts": [{**FIRST, "half_width": -1}]}, ["half_width"]),
+    ({"parts": [{**FIRST, "steps": 2.5}]}, ["steps", "2.5"]),
+    ({"defaults": []}, ["defaults"]),
+    ({"defaults": {"colour": "red"}}, ["colour", "not known"]),
+    ({"self_test": "yes"}, ["self_test"]),
+    ({"builds": 0}, ["builds"]),
+    ({"builds": 2}, ["--program"]),
+    ({"seed": -1}, ["seed"]),
+], ids=lambda v: json.dumps(v)[:60] if isinstance(v, dict) else "")
+def test_plans_that_say_something_wrong(pairsum, plan, files, changes, says):
+    assert refused(pairsum("run", plan(**changes), "--out", "rows.jsonl"), *says)
+    assert files() == []
+
+
+def test_a_plan_that_is_a_folder_or_missing(pairsum, tmp_path, files):
+    (tmp_path / "folder.json").mkdir()
+    assert refused(pairsum("run", "folder.json", "--out", "rows.jsonl"), "folder.json", "folder")
+    assert refused(pairsum("run", "./", "--out", "rows.jsonl"), "folder")
+    assert refused(pairsum("run", "missing.json", "--out", "rows.jsonl"), "missing.json")
+    assert refused(pairsum("run", "no/folder", "--out", "rows.jsonl"), "no/folder")
+    assert files() == ["folder.json"]
+
+
+# ---------------------------------------------------------------------------------------------- the harness on itself
+
+
+def test_a_corrupt_backend_has_only_errors(pairsum, plan, tmp_path):
+    backends = ["symmetric_omp", "again_symmetric_omp", "slowed_20_symmetric_omp", "corrupt_symmetric_omp"]
+    words = {"name": "known", "state": "perturbed", "backend": ",".join(backends), "rounds": 6}
+    path = plan(self_test=True, parts=[words])
+    done = pairsum("run", path, "--out", "rows.jsonl")
+    assert done.returncode == 1, (done.stdout, done.stderr)
+    rows = [json.loads(line) for line in (tmp_path / "rows.jsonl").read_text().splitlines()]
+    samples = [row for row in rows if row["kind"] == "sample"]
+    assert {row["point"]["backend"] for row in samples} == set(backends)
+    for row in samples:
+        corrupt = row["point"]["backend"].startswith("corrupt")
+        assert ("error" in row) == corrupt and (row["phases"] is None) == corrupt
+    assert rows[-1]["kind"] == "end"
+    report = pairsum("report", "rows.jsonl", "--out", "s")
+    summary = json.loads((tmp_path / "s" / "summary.json").read_text())
+    assert report.returncode in (0, 1) and "corrupt_symmetric_omp" in report.stdout
+    assert "corrupt_symmetric_omp" not in [p["point"]["backend"] for p in summary["points"] if p.get("rounds")]
+
+
+def test_backends_of_the_self_test_are_for_the_self_test(pairsum, plan):
+    assert refused(pairsum("run", plan(parts=[{"name": "known", "backend": "corrupt_symmetric_omp"}])), "corrupt_symmetric_omp")
+    assert refused(pairsum("run", "--backend", "corrupt_symmetric_omp"), "corrupt_symmetric_omp")
+
+
+# ---------------------------------------------------------------------------------------------------------- comparing
+
+
+@pytest.fixture(scope="module")
+def measured(tmp_path_factory):
+    """Two rows files of one plan, six rounds each."""
+    folder = tmp_path_factory.mktemp("measured")
+    (folder / "plan.json").write_text(json.dumps(PLAN))
+    for name in ["one.jsonl", "two.jsonl"]:
+        done = subprocess.run([BIN / "pairsum", "run", folder / "plan.json", "--out", folder / name], cwd=folder, text=True,
+                              capture_output=True, timeout=120)
+        assert done.returncode == 0, done.stderr
+    return folder
+
+
+def test_compare_backends(pairsum, measured):
+    done = pairsum("compare", "naive", "symmetric", "--in", measured / "one.jsonl", "--allow-mixed")
+    assert done.returncode == 0, done.stderr
+    assert "dam_break rest dx=0.08 M=3 threads=1" in done.stdout and "Of 1 comparison B is faster in " in done.stdout
+    ratio, low, high = map(float, re.search(r"([0-9.]+)  \[([0-9.]+), ([0-9.]+)\]", done.stdout).groups())
+    assert low <= ratio <= high
+    total = pairsum("compare", "naive", "symmetric", "--in", measured / "one.jsonl", "--phase", "total", "--allow-mixed")
+    assert total.returncode == 0 and total.stdout != done.stdout
+
+
+def test_compare_files_and_folders(pairsum, measured, tmp_path):
+    done = pairsum("compare", measured / "one.jsonl", measured / "two.jsonl", "--allow-mixed")
+    assert done.returncode == 0, done.stderr
+    assert "Of 3 comparisons B is faster in " in done.stdout
+    for name in ["one", "two"]:
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "rows.jsonl").write_bytes((measured / f"{name}.jsonl").read_bytes())
+    folders = pairsum("compare", "one", "two", "--allow-mixed")
+    assert folders.returncode == 0 and "Of 3 comparisons" in folders.stdout
+
+
+def test_compare_revisions(pairsum, measured, tmp_path):
+    one = (measured / "one.jsonl").read_text()
+    environment = next(row for row in map(json.loads, one.splitlines()) if row["kind"] == "environment")
+    old = "0123456789ab"
+    for name, text in [("new", one), ("old", (measured / "two.jsonl").read_text().replace(environment["git"], old)
+                                      .replace(environment["environment"], "0123456789abcdef"))]:
+        (tmp_path / f"{name}.jsonl").write_text(text)
+    done = pairsum("compare", old[:6], environment["git"][:6], "--in", "old.jsonl", "new.jsonl", "--allow-mixed")
+    assert done.returncode == 0, done.stderr
+    assert "Of 3 comparisons B is faster in " in done.stdout
+    assert refused(pairsum("compare", old, old[:6], "--in", "old.jsonl", "new.jsonl", "--allow-mixed"), "both", old)
+
+
+def test_compare_refuses(pairsum, measured, tmp_path):
+    one = measured / "one.jsonl"
+    assert refused(pairsum("compare", "naive", "nope", "--in", one), '"nope"', "naive", "symmetric")
+    assert refused(pairsum("compare", "nope", "naive", "--in", one), '"nope"')
+    assert refused(pairsum("compare", "naive", "symmetric", "--in", one, "--phase", "nope"), "nope", "total", "sum")
+    assert refused(pairsum("compare", "naive", "symmetric", "--in", "missing.jsonl"), "missing.jsonl")
+    assert refused(pairsum("compare", one, "missing.jsonl"), "missing.jsonl")
+    assert refused(pairsum("compare", "naive"), "B")
+    (tmp_path / "foreign.jsonl").write_text("a,b\n1,2\n")
+    assert refused(pairsum("compare", one, "foreign.jsonl"), "foreign.jsonl")
+    (tmp_path / "empty").mkdir()
+    assert refused(pairsum("compare", "naive", "symmetric", "--in", "empty"), "empty")
+
+
+# ----------------------------------------------------------------------------------------------------------- progress
+
+
+def test_progress_is_quiet_where_nobody_looks(pairsum, plan):
+    done = pairsum("run", plan(), "--rounds", "2", "--out", "rows.jsonl")
+    assert done.returncode == 0 and done.stderr == ""
+    assert "\r" not in done.stdout and "\x1b" not in done.stdout and "ETA" not in done.stdout
+
+
+def test_progress_on_a_terminal(tmp_path):
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen([BIN / "pairsum", "run", "--dx", "0.05", "--M", "5", "--threads", "1", "--rounds", "1000", "--out",
+                                "rows.jsonl"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=theirs)
+    os.close(theirs)
+    seen, until = b"", time.monotonic() + 30
+    while not re.search(rb"\[[#.]{24}\] +\d+ %  ETA \d+:\d\d  run round \d+/1000", seen) and time.monotonic() < until:
+        if select.select([ours], [], [], 0.1)[0]:
+            seen += os.read(ours, 65536)
+    process.send_signal(signal.SIGTERM)
+    while process.poll() is None and time.monotonic() < until + 10:  # it shall not wait for a reader
+        if select.select([ours], [], [], 0.1)[0]:
+            try:
+                seen += os.read(ours, 65536)
+            except OSError:
+                break
+    process.communicate(timeout=10)
+    os.close(ours)
+    assert process.returncode == 130
+    assert re.search(rb"\[[#.]{24}\] +\d+ %  ETA \d+:\d\d  run round \d+/1000", seen), seen[-400:]
