@@ -112,9 +112,11 @@ int start(const run_options& o, const given_options& given) {
     return 0;
   }
   if (plan.builds != static_cast<int>(o.programs.size()) + 1)
-    throw error(fmt::format("the plan compares {} builds: name {} with --program, {} are named", plan.builds,
-                            plan.builds == 2 ? "the other program" : fmt::format("{} programs", plan.builds - 1),
-                            o.programs.size()));
+    throw error(plan.builds == 1
+                    ? std::string("--program names another build, which only a plan that compares builds takes")
+                    : fmt::format("the plan compares {} builds: name the {} with --program; {} {} named", plan.builds,
+                                  plan.builds == 2 ? "other one" : "others", o.programs.size(),
+                                  o.programs.size() == 1 ? "is" : "are"));
   if (given.at("out") && o.out.empty()) throw error("--out takes the name of a file, not \"\"");
   study_options options;
   options.binding = o.binding;

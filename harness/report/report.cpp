@@ -22,7 +22,8 @@ std::vector<std::filesystem::path> rows_paths(const std::vector<std::filesystem:
     }
     std::vector<std::filesystem::path> inside;
     for (const auto& entry : std::filesystem::directory_iterator(path))
-      if (entry.path().extension() == ".jsonl") inside.push_back(entry.path());
+      if (entry.path().extension() == ".jsonl" && !entry.is_directory() && entry.file_size() > 0)  // not begun
+        inside.push_back(entry.path());
     if (inside.empty()) throw error(path.string() + ": has no rows files (*.jsonl) in it");
     std::sort(inside.begin(), inside.end());
     paths.insert(paths.end(), inside.begin(), inside.end());

@@ -24,7 +24,7 @@ std::string duration(double seconds) {
 }
 
 std::string rounds_of(const part_plan& p) {
-  if (p.least_rounds == p.most_rounds) return fmt::format("{} rounds", p.most_rounds);
+  if (p.least_rounds == p.most_rounds) return fmt::format("{} round{}", p.most_rounds, p.most_rounds == 1 ? "" : "s");
   return fmt::format(
       "{} to {} rounds{}", p.least_rounds, p.most_rounds,
       p.half_width > 0 ? fmt::format(", until every interval is within +-{:g} %", 100 * p.half_width) : "");
@@ -41,9 +41,9 @@ std::string dry_run(const study_plan& plan, const registry& all) {
   const nlohmann::json standard = levels_json(run_request{});
   for (std::size_t k = 0; k < plan.parts.size(); ++k) {
     const part_plan& part = plan.parts[k];
-    text += fmt::format("\npart {}: {} points, {}; a round takes about {}, verifying it before about {}\n",
-                        part.request.part, time.points(k), rounds_of(part), duration(time.round_s(k)),
-                        duration(time.verify_s(k)));
+    text += fmt::format("\npart {}: {} point{}, {}; a round takes about {}, verifying it before about {}\n",
+                        part.request.part, time.points(k), time.points(k) == 1 ? "" : "s", rounds_of(part),
+                        duration(time.round_s(k)), duration(time.verify_s(k)));
     if (!part.reason.empty()) text += "  because: " + part.reason + "\n";
     const nlohmann::json levels = levels_json(part.request);  // items() does not keep it
     for (const auto& item : levels.items()) {

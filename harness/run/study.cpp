@@ -46,26 +46,25 @@ std::string other_build(const environment_row& there, const environment_row& her
   return fmt::format("{}; this is {}", say(there), say(here));
 }
 
-/// Makes sure that the rows file can be written, before anything is measured; takes it away again if it is new and no
-/// row came.
+/// Makes the rows file, so that it can be locked and whatever keeps it from being written is told before anything is
+/// measured; takes it away again if it is new and no row came. (A study that is killed before its first row leaves an
+/// empty file.)
 class writable_file {
  public:
   explicit writable_file(std::filesystem::path path)
       : path_(std::move(path)), is_new_(!exists(path_)), folder_is_new_(is_new_ && !exists(folder())) {
-    { row_writer try_it(path_); }
-    take_away();
+    row_writer make_it(path_);
   }
-  ~writable_file() { take_away(); }
-  writable_file(const writable_file&) = delete;
-  writable_file& operator=(const writable_file&) = delete;
-
- private:
-  void take_away() const {
+  ~writable_file() {
     std::error_code code;
     if (!is_new_ || std::filesystem::file_size(path_, code) != 0 || code) return;
     std::filesystem::remove(path_, code);
     if (folder_is_new_) std::filesystem::remove(folder(), code);  // only if nothing else is in it
   }
+  writable_file(const writable_file&) = delete;
+  writable_file& operator=(const writable_file&) = delete;
+
+ private:
   static bool exists(const std::filesystem::path& p) {
     std::error_code code;
     return std::filesystem::exists(p, code);
@@ -164,10 +163,13 @@ class conductor {
   /// Sets the code with which the study ends, if it ends with this departure: a process that was killed is started
   /// again.
   bool went_well(const departure& end) {
-    if (interrupted() || end.code == 130)
+    if (interrupted() || end.code == 130) {
       code_ = 130;
-    else if (end.signal == 0 && end.code > 1)
-      code_ = 2;  // it has said why
+    } else if (end.signal == 0 && end.code > 1) {
+      if (end.code != 2)
+        say(fmt::format("a process of the study ended with code {}, before its work was done", end.code));
+      code_ = 2;  // with code 2 it has said why
+    }
     return code_ == 0 && end.signal == 0;
   }
 

@@ -50,7 +50,7 @@ def test_dry_run_prints_the_design_and_writes_nothing(pairsum, plan, files):
     assert done.returncode == 0, done.stderr
     assert "mine: a plan of a test" in done.stdout and "because: to have two" in done.stdout
     assert re.search(r"^part both: 2 points, 6 rounds", done.stdout, re.M)
-    assert re.search(r"^part alone: 1 points, 6 to 8 rounds", done.stdout, re.M)
+    assert re.search(r"^part alone: 1 point, 6 to 8 rounds", done.stdout, re.M)
     assert re.search(r"^  backend +naive, symmetric$", done.stdout, re.M)
     assert re.search(r"about \d+ (s|min|h)", done.stdout.splitlines()[-1])
     assert files() == []
@@ -78,7 +78,7 @@ def test_options_show_themselves_as_a_plan(pairsum, tmp_path, files):
     assert shown.returncode == 0, shown.stderr
     (tmp_path / "shown.json").write_text(shown.stdout)
     done = pairsum("run", "shown.json", "--dry-run")
-    assert done.returncode == 0 and "1 points, 1 rounds" in done.stdout
+    assert done.returncode == 0 and "1 point, 1 round;" in done.stdout
     assert files() == []
 
 
