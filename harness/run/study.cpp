@@ -121,7 +121,6 @@ class conductor {
   row_writer& file() {
     if (!writer_) {
       writer_.emplace(options_.out);
-      lock_.take();  // it is there now
       if (!writer_->knows(environment_.environment)) writer_->write(environment_);
     }
     return *writer_;
