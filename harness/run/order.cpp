@@ -1,5 +1,7 @@
 #include "harness/run/order.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -30,14 +32,18 @@ nlohmann::json order_json(const order& o) {
 }
 
 order parse_order(const nlohmann::json& j) {
-  if (!j.is_object() || j.value("schema", "") != order_schema)
-    throw error(std::string("a worker takes orders of schema \"") + order_schema +
-                "\" from the program that conducts the study, which is another version");
+  const auto other_version = [] {
+    return error(std::string("a worker takes orders of schema \"") + order_schema +
+                 "\" from the program that conducts the study, which is another version");
+  };
+  if (!j.is_object() || j.value("schema", nlohmann::json()) != order_schema) throw other_version();
   order o;
-  for (int k = 0; k < 3; ++k)
-    if (j.at("what") == errands[k]) o.what = static_cast<errand>(k);
+  const auto what = std::ranges::find(errands, j.at("what"));
+  if (what == std::end(errands)) throw other_version();
+  o.what = static_cast<errand>(what - errands);
   o.plan = parse_plan(j.at("plan"), 1);
   o.part = j.at("part");
+  if (o.part >= o.plan.parts.size()) throw other_version();
   o.round = j.at("round");
   o.out = j.at("out");
   o.binding = j.at("binding");

@@ -19,7 +19,6 @@ rows_so_far::rows_so_far(const std::filesystem::path& path, const study_plan& pl
   std::set<int> before;  // rounds that stand before the last end
   for (std::size_t k = 0; k < rows_.ends.size(); ++k) {
     if (rows_.ends[k].study != study_ || rows_.ends[k].plan != hash) continue;
-    ended_ = true;
     for (std::size_t r = 0; r < rows_.rounds_before_end[k]; ++r)
       if (rows_.rounds[r].study == study_) before.insert(rows_.rounds[r].round);
   }

@@ -23,8 +23,8 @@ class rows_so_far {
   int next_replicate(const std::string& part) const;
   /// Are there finished rounds since the last end?
   bool open() const { return !rounds_.empty(); }
-  /// Was the plan begun, even if no round was finished, and not carried out to its end?
-  bool unended() const { return !rows_.environments.empty() && (open() || !ended_); }
+  /// Was the plan begun and not carried out to its end? A file in which no round was finished may be of any plan.
+  bool unended() const { return open() || (!rows_.environments.empty() && rows_.rounds.empty() && rows_.ends.empty()); }
 
   /// The largest half-width of the intervals for the medians of the summation times over the rounds of a part, as a
   /// share of the median; empty while there are too few rounds for an interval.
@@ -40,7 +40,6 @@ class rows_so_far {
   std::map<std::string, std::vector<round_row>> rounds_;
   std::map<std::string, int> replicates_;  ///< the largest so far, those before the last end included
   int last_round_ = 0;
-  bool ended_ = false;
 };
 
 }  // namespace pairsum::harness

@@ -152,13 +152,6 @@ class errand_run {
       if (!interrupted()) part.world_of(*p).measure(p->what, 1);
   }
 
-  /// In a self-test, the corrupt backends are right if they are refused.
-  bool must_fail(const std::string& backend) const {
-    if (!order_.plan.self_test) return false;
-    return std::ranges::any_of(self_test_entries(),
-                               [&](const self_test_entry& e) { return e.word == backend && !e.expected_ratio(); });
-  }
-
   /// The rows file, once the input has proved right; with the environment row if it is not there.
   void open() {
     writer_ = std::make_unique<row_writer>(order_.out);
@@ -182,7 +175,7 @@ class errand_run {
   void write(const point& p, const world::result& r, int slot, int repetition) {
     sample s = blank(p, slot, repetition);
     if (!r.error.empty()) {  // a backend that is wrong gets no time
-      failed_ = failed_ || !must_fail(p.backend);
+      failed_ = failed_ || !must_fail(order_.plan, p.backend);
       s.error = r.error;
       writer_->write(s);
       return;
@@ -242,6 +235,12 @@ int carry_out(const order& o, const registry& all) {
     default:
       return run.measure();
   }
+}
+
+bool must_fail(const study_plan& plan, const std::string& backend) {
+  return plan.self_test && std::ranges::any_of(self_test_entries(), [&](const self_test_entry& e) {
+           return e.word == backend && !e.expected_ratio();
+         });
 }
 
 const registry& registry_of(const study_plan& plan) {

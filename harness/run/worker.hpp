@@ -10,6 +10,9 @@ namespace pairsum::harness {
 /// verification, 130 after SIGINT or SIGTERM (rows up to there are written). Throws pairsum::error for bad input.
 int carry_out(const order& o, const registry& all);
 
+/// In a self-test, the corrupt backends are right if they are refused.
+bool must_fail(const study_plan& plan, const std::string& backend);
+
 /// The backends that a plan may name: those of the build, and with `self_test` those that test the harness.
 const registry& registry_of(const study_plan& plan);
 

@@ -46,21 +46,22 @@ class unpacker {
     std::size_t size = 0;
     get(size);
     if constexpr (std::is_trivially_copyable_v<T>) {
-      const char* const from = take(size * sizeof(T));
+      const char* const from = take(size, sizeof(T));
       values.resize(size);
       if (size > 0) std::memcpy(values.data(), from, size * sizeof(T));
     } else {
-      if (size > bytes_.size()) take(size);
+      if (size > bytes_.size()) take(size);  // before there is room made for them
       values.resize(size);
       for (T& value : values) get(value);
     }
   }
 
  private:
-  const char* take(std::size_t size) {
-    if (size > bytes_.size() - at_) throw error("the store that the processes of a study share holds a cut record");
+  const char* take(std::size_t count, std::size_t each = 1) {
+    if (count > (bytes_.size() - at_) / each)
+      throw error("the store that the processes of a study share holds a cut record");
     const char* const from = bytes_.data() + at_;
-    at_ += size;
+    at_ += count * each;
     return from;
   }
   const std::string& bytes_;

@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "core/error.hpp"
@@ -18,7 +20,8 @@ class study_test : public ::testing::Test {
   study_test()
       : folder_(std::filesystem::path(testing::TempDir()) /
                 (std::string("pairsum_") + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
-                 std::to_string(::getpid()))) {
+                 std::to_string(::getpid()))),
+        path_(folder_ / "rows.jsonl") {
     std::filesystem::remove_all(folder_);
   }
   ~study_test() override { std::filesystem::remove_all(folder_); }
@@ -53,8 +56,47 @@ class study_test : public ::testing::Test {
     return run(plan_of(r), path, all);
   }
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, path_;
 };
+
+/// A part of few particles that is measured in milliseconds.
+inline part_plan small_part(const std::string& name, int rounds) {
+  part_plan p;
+  p.request.study = "test";
+  p.request.part = name;
+  p.request.dx = {0.1};
+  p.request.states = {"perturbed"};
+  p.request.backends = {"naive"};
+  p.request.M = {3};
+  p.request.steps = 2;
+  p.least_rounds = p.most_rounds = rounds;
+  return p;
+}
+
+inline study_plan study_of(std::vector<part_plan> parts) {
+  study_plan plan;
+  plan.study = "test";
+  plan.title = "A test";
+  plan.parts = std::move(parts);
+  return plan;
+}
+
+/// Carries a plan out in this process, unless launchers are given.
+inline int conduct_here(const study_plan& plan, const std::filesystem::path& out,
+                        const registry& all = registry::instance(), std::vector<launcher> builds = {}) {
+  if (builds.empty()) builds.push_back(in_this_process(all));
+  return conduct(plan, {out, "none", std::move(builds)}, all);
+}
+
+inline std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << text;
+}
 
 /// The message of the pairsum::error that f throws, or "".
 template <class F>

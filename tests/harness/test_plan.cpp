@@ -60,6 +60,7 @@ TEST(plan, order_is_a_permutation_that_seed_round_and_repetition_decide) {
   EXPECT_EQ(order, shuffled_order(50, 7, 1, 1));
   EXPECT_NE(order, shuffled_order(50, 7, 1, 2));
   EXPECT_NE(order, shuffled_order(50, 7, 2, 1));
+  EXPECT_NE(shuffled_order(50, 7, 1, 2), shuffled_order(50, 7, 2, 1));
   EXPECT_NE(order, shuffled_order(50, 8, 1, 1));
   std::vector<std::size_t> all(50);
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -69,13 +70,15 @@ TEST(plan, order_is_a_permutation_that_seed_round_and_repetition_decide) {
 }
 
 TEST(plan, every_slot_is_reached_by_every_point) {
-  std::vector<std::vector<int>> at(4, std::vector<int>(4, 0));
-  for (int repetition = 1; repetition <= 400; ++repetition) {
-    const auto order = shuffled_order(4, 1, repetition, 1);
-    for (std::size_t slot = 0; slot < 4; ++slot) ++at[order[slot]][slot];
+  for (const bool over_rounds : {true, false}) {
+    std::vector<std::vector<int>> at(4, std::vector<int>(4, 0));
+    for (int k = 1; k <= 400; ++k) {
+      const auto order = over_rounds ? shuffled_order(4, 1, k, 1) : shuffled_order(4, 1, 1, k);
+      for (std::size_t slot = 0; slot < 4; ++slot) ++at[order[slot]][slot];
+    }
+    for (const auto& row : at)
+      for (const int n : row) EXPECT_GT(n, 50);  // 100 expected, standard deviation 8.7
   }
-  for (const auto& row : at)
-    for (const int n : row) EXPECT_GT(n, 50);  // 100 expected, standard deviation 8.7
 }
 
 template <class Change>

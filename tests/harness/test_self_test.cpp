@@ -1,14 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <set>
 
 #include "broken_registry.hpp"
 #include "core/error.hpp"
 #include "harness/measure/worker_team.hpp"
-#include "harness/rows/reader.hpp"
 #include "harness/self_test/self_test.hpp"
 #include "harness/self_test/slowed_summation.hpp"
 #include "harness/verify/verifier.hpp"
@@ -197,9 +195,9 @@ TEST(self_test, an_integrator_moves_the_particles_of_a_copy) {
   }
 }
 
-TEST(self_test, a_run_measures_the_sound_copies_and_fails_the_corrupt) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "pairsum_self_test" / "rows.jsonl";
-  std::filesystem::remove_all(path.parent_path());
+using self_test_run = study_test;
+
+TEST_F(self_test_run, measures_the_sound_copies_and_fails_the_corrupt) {
   run_request request;
   request.dx = {0.08};
   request.states = {"perturbed"};
@@ -211,14 +209,9 @@ TEST(self_test, a_run_measures_the_sound_copies_and_fails_the_corrupt) {
   request.backends.clear();
   for (const self_test_entry& e : built()) request.backends.push_back(std::string(e.word));
   if (request.backends.empty()) GTEST_SKIP() << "neither symmetric_omp nor naive_omp is in this build";
-  study_plan plan;
-  plan.study = request.study;
-  plan.parts.push_back({"", request, 1, 1, 0, 1});
-  const registry extended = with_self_test(registry::instance());
-  EXPECT_EQ(conduct(plan, {path, "none", {in_this_process(extended)}}, extended), 1);
-  for (const sample& s : read_rows(path).samples)
+  EXPECT_EQ(run(request, path_, with_self_test(registry::instance())), 1);
+  for (const sample& s : read_rows(path_).samples)
     EXPECT_EQ(s.error.has_value(), s.point.backend.starts_with("corrupt_")) << s.point.backend;
-  std::filesystem::remove_all(path.parent_path());
 }
 
 TEST(self_test, bases_that_were_not_built_are_left_out) {

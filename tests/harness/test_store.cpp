@@ -1,108 +1,138 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <limits>
+
 #include "core/error.hpp"
-#include "harness/measure/cpu_time.hpp"
-#include "harness/measure/pass_times.hpp"
 #include "harness/verify/pack.hpp"
 #include "harness/verify/shared_store.hpp"
 
 namespace pairsum::harness {
 namespace {
 
-TEST(shared_store, hands_bytes_to_whoever_has_the_descriptor) {
-  shared_store mine;
-  mine.save("a", "first");
-  mine.save("b", std::string("\0x", 2));
-  mine.save("a", "second");
-  mine.save("empty", "");
-  shared_store theirs(mine.descriptor());
-  EXPECT_EQ(theirs.load("a"), "second");
-  EXPECT_EQ(theirs.load("b"), std::string("\0x", 2));
-  EXPECT_EQ(theirs.load("empty"), "");
-  EXPECT_EQ(theirs.load("c"), std::nullopt);
-  theirs.save("c", "new");
-  EXPECT_EQ(mine.load("c"), "new");
-}
-
-TEST(shared_store, forgets_what_a_dead_process_began_to_save) {
+TEST(shared_store, hands_bytes_on_by_key_and_the_last_ones_count) {
   shared_store store;
-  store.save("a", "whole");
+  EXPECT_FALSE(store.load("a"));
+  const std::string zeros(5, '\0');
+  store.save("a", "first");
+  store.save("b", zeros);
+  store.save("", "no key");
+  store.save("empty", "");
+  store.save("a", "second");
+  shared_store other(store.descriptor());
+  EXPECT_EQ(other.load("a"), "second");
+  EXPECT_EQ(other.load("b"), zeros);
+  EXPECT_EQ(other.load(""), "no key");
+  EXPECT_EQ(other.load("empty"), "");
+  EXPECT_FALSE(other.load("c"));
+  other.save("c", std::string(3000000, 'x'));
+  EXPECT_EQ(store.load("c")->size(), 3000000u);
+}
+
+TEST(shared_store, forgets_what_was_saved_since_an_end) {
+  shared_store store;
+  store.save("a", "first");
   const std::size_t end = store.end();
-  ASSERT_EQ(::write(store.descriptor(), "half a record", 13), 13);
+  store.save("a", "second");
+  store.save("b", "x");
   store.truncate(end);
-  store.save("b", "after");
-  EXPECT_EQ(store.load("a"), "whole");
-  EXPECT_EQ(store.load("b"), "after");
+  EXPECT_EQ(store.load("a"), "first");
+  EXPECT_FALSE(store.load("b"));
+  store.save("b", "y");
+  EXPECT_EQ(store.load("b"), "y");
 }
 
-TEST(shared_store, a_descriptor_that_is_none_is_refused) {
-  EXPECT_THROW(shared_store(-1), error);
-  EXPECT_THROW(shared_store(12345), error);
+TEST(shared_store, a_record_that_was_cut_is_not_handed_out) {
+  for (std::size_t cut = 1; cut <= 16 + 1 + 5; ++cut) {
+    shared_store store;
+    store.save("a", "whole");
+    store.save("b", "bytes");
+    store.truncate(store.end() - cut);
+    EXPECT_EQ(store.load("a"), "whole") << cut;
+    EXPECT_FALSE(store.load("b")) << cut;
+  }
 }
 
-TEST(pack, expectations_and_verdicts_come_back_and_cut_ones_are_refused) {
-  expectation e{{"drho", "dv_x"}, {3, 5}, {{1, 2}, {3, 4}}, {{0.1, 0.2}, {0.3, 0.4}}, {{5, 6}, {7, 8}}, 11, 12};
-  const std::string bytes = pack(e);
-  const expectation back = unpack_expectation(bytes);
+void expect_refused(int descriptor) {
+  try {
+    shared_store store(descriptor);
+    ADD_FAILURE() << "accepted descriptor " << descriptor;
+  } catch (const error& e) {
+    EXPECT_NE(std::string(e.what()).find("store"), std::string::npos) << e.what();
+    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
+  }
+}
+
+TEST(shared_store, a_descriptor_of_no_file_is_refused) {
+  expect_refused(-1);
+  expect_refused(987654);
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(pipe2(ends, O_CLOEXEC), 0);
+  expect_refused(ends[0]);
+  close(ends[0]);
+  close(ends[1]);
+}
+
+TEST(shared_store, bytes_that_cannot_be_written_are_an_error) {
+  const int file = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  ASSERT_GE(file, 0);
+  shared_store store(file);
+  EXPECT_THROW(store.save("a", "x"), error);
+  EXPECT_THROW(store.truncate(0), error);
+  close(file);
+}
+
+expectation some_expectation() {
+  expectation e;
+  e.names = {"velocity x", ""};
+  e.ids = {0, 7, 4000000000u};
+  e.value = {{0.1, -0.0, std::numeric_limits<double>::infinity()}, {1e-310, 2, 3}};
+  e.bound = {{1, 2, 3}, {}};
+  e.magnitude = {};
+  e.pairs_fluid_fluid = 1ull << 63;
+  e.pairs_fluid_boundary = 5;
+  return e;
+}
+
+TEST(pack, an_expectation_comes_back_the_same) {
+  const expectation e = some_expectation(), back = unpack_expectation(pack(e));
   EXPECT_EQ(back.names, e.names);
   EXPECT_EQ(back.ids, e.ids);
   EXPECT_EQ(back.value, e.value);
   EXPECT_EQ(back.bound, e.bound);
   EXPECT_EQ(back.magnitude, e.magnitude);
-  EXPECT_EQ(back.pairs_fluid_fluid, 11u);
-  EXPECT_EQ(back.pairs_fluid_boundary, 12u);
-  for (std::size_t size = 0; size < bytes.size(); ++size)
-    EXPECT_THROW(unpack_expectation(bytes.substr(0, size)), error) << size;
+  EXPECT_EQ(back.pairs_fluid_fluid, e.pairs_fluid_fluid);
+  EXPECT_EQ(back.pairs_fluid_boundary, e.pairs_fluid_boundary);
+}
+
+verdict_map some_verdicts() {
   verdict_map known;
-  verdict v;
-  v.max_rel_err = 0.25;
-  v.bound = 0.5;
-  known.insert({{{"euler", 2}, 77u}, v});
-  const verdict_map again = unpack_verdicts(pack(known));
-  ASSERT_EQ(again.size(), 1u);
-  EXPECT_TRUE(again.begin()->first == known.begin()->first);
-  EXPECT_TRUE(again.begin()->second.ok);
-  EXPECT_EQ(again.begin()->second.bound, 0.5);
+  known[{{"euler", 1}, 17u}] = {true, 1e-16, 1e-14, ""};
+  known[{{"rk4", 3}, ~0ull}] = {true, 2e-16, 1e-14, ""};
+  return known;
 }
 
-TEST(pass_times, work_and_waiting_make_up_the_pass) {
-  pass_times times(2);
-  EXPECT_FALSE(times.any());
-  times.pass_begins(0);
-  for (int chunk = 0; chunk < 2; ++chunk) {
-    times.work_begins(0, 0);
-    ::usleep(2000);
-    times.work_ends(0, 0);
-  }
-  times.pass_ends(0);
-  times.work_begins(1, 1);
-  ::usleep(1000);
-  times.work_ends(1, 1);
-  times.pass_ends(1);
-  const auto busy = times.busy(), waiting = times.waiting();
-  ASSERT_EQ(busy.size(), 2u);
-  EXPECT_GE(busy[0][0], 0.004);
-  EXPECT_EQ(busy[0][1], 0);
-  EXPECT_GE(busy[1][1], 0.001);
-  EXPECT_EQ(busy[1][0], 0);
-  for (std::size_t pass = 0; pass < 2; ++pass)
-    EXPECT_NEAR(busy[pass][0] + waiting[pass][0], busy[pass][1] + waiting[pass][1], 1e-12) << "the pass's length";
-  times.pass_begins(0);
-  times.pass_ends(0);
-  EXPECT_EQ(times.busy(), (pass_times::table{{0, 0}})) << "a new sum forgets the last";
+TEST(pack, verdicts_come_back_the_same) {
+  const verdict_map back = unpack_verdicts(pack(some_verdicts()));
+  ASSERT_EQ(back.size(), 2u);
+  const verdict& v = back.at({{"rk4", 3}, ~0ull});
+  EXPECT_TRUE(v.ok);
+  EXPECT_EQ(v.max_rel_err, 2e-16);
+  EXPECT_EQ(v.bound, 1e-14);
+  EXPECT_TRUE(unpack_verdicts(pack(verdict_map{})).empty());
 }
 
-TEST(cpu_time, others_have_what_is_left) {
-  const machine_time before{100, 1000}, after{106, 1020};
-  EXPECT_DOUBLE_EQ(*share_of_others(before, after, 5), 0.05);
-  EXPECT_EQ(share_of_others(before, after, 9), 0.0) << "never below 0";
-  EXPECT_EQ(share_of_others(before, before, 0), std::nullopt);
-  EXPECT_EQ(share_of_others(std::nullopt, after, 0), std::nullopt);
-  const auto now = machine_time_now();
-  ASSERT_TRUE(now);
-  EXPECT_GT(now->total_s, now->busy_s);
-  EXPECT_GT(own_time(), 0);
+TEST(pack, bytes_that_end_too_early_are_refused) {
+  const std::string e = pack(some_expectation()), v = pack(some_verdicts());
+  for (std::size_t n = 0; n < e.size(); ++n) EXPECT_THROW(unpack_expectation(e.substr(0, n)), error) << n;
+  for (std::size_t n = 0; n < v.size(); ++n) EXPECT_THROW(unpack_verdicts(v.substr(0, n)), error) << n;
+  std::string vast = e;
+  vast.replace(0, 8, std::string(8, '\xff'));  // as many names
+  EXPECT_THROW(unpack_expectation(vast), error);
+  vast = pack(expectation{});
+  vast.replace(8, 8, std::string(7, '\0') + '\x40');  // so many ids that their bytes overflow
+  EXPECT_THROW(unpack_expectation(vast), error);
 }
 
 }  // namespace

@@ -3,9 +3,12 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "harness/verify/pack.hpp"
+#include "harness/verify/shared_store.hpp"
 #include "harness/verify/verifier.hpp"
 #include "harness/verify/verify_all.hpp"
 #include "lying_backends.hpp"
+#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -119,6 +122,44 @@ TEST(verifier, known_bits_need_no_second_look_but_other_bits_do) {
   EXPECT_TRUE(outcome("broken_none").known) << "second time: recognised by its bits";
   EXPECT_FALSE(outcome("broken_double_pair").ok);
   EXPECT_FALSE(outcome("broken_double_pair").ok) << "wrong bits are never remembered as right";
+}
+
+TEST(verifier, what_one_process_verified_another_knows_by_its_bits) {
+  const initial_condition c = perturbed();
+  setup s;
+  s.omega_low = c.omega_low;
+  s.omega_high = c.omega_high;
+  s.constants = {c.H, c.eos};
+  const registry broken = broken_registry();
+  shared_store store;
+  const auto outcome = [&](verifier& v, const char* backend) {
+    s.backend = backend;
+    const auto sum = broken.make_summation(s);
+    sum->load(c.particles, {});
+    sum->evaluate(team());
+    return v.check(*sum, {}, team());
+  };
+  verifier first(broken, s, c.particles, team(), &store, "key");
+  EXPECT_FALSE(outcome(first, "broken_none").known);
+  EXPECT_FALSE(outcome(first, "broken_double_pair").ok);
+  first.remember();
+  shared_store handed(store.descriptor());
+  verifier second(broken, s, c.particles, team(), &handed, "key");
+  EXPECT_TRUE(outcome(second, "broken_none").known);
+  EXPECT_FALSE(outcome(second, "broken_double_pair").known) << "wrong bits are not handed on";
+  EXPECT_FALSE(outcome(second, "broken_double_pair").ok);
+  EXPECT_EQ(second.initial_expectation().value, first.initial_expectation().value);
+  verifier other(broken, s, c.particles, team(), &handed, "another key");
+  EXPECT_FALSE(outcome(other, "broken_none").known) << "of another build, case or formula";
+}
+
+TEST(verifier, verdicts_without_their_reference_are_an_error_where_it_is_needed) {
+  const initial_condition c = perturbed();
+  const registry broken = broken_registry();
+  shared_store store;
+  store.save("key/verdicts", pack(verdict_map{}));
+  verifier v(broken, setup_of(c), c.particles, team(), &store, "key");
+  EXPECT_THROW(v.initial_expectation(), error);
 }
 
 TEST(verifier, rejects_a_reference_whose_cell_search_contradicts_its_brute_force) {

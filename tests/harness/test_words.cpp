@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/error.hpp"
+#include "harness/plan/levels.hpp"
 #include "harness/plan/words.hpp"
 
 namespace pairsum::harness {
@@ -29,6 +32,19 @@ TEST(words, what_is_no_number_is_named_with_its_option) {
   }
   EXPECT_THROW(parse_numbers("--dx", "0.02x"), error);
   EXPECT_THROW(parse_counts("--M", "all", 0), error);
+}
+
+TEST(words, a_list_where_one_number_is_wanted_is_not_cut) {
+  run_request r;
+  for (const char* key : {"steps", "repetitions", "dim", "H", "dt"}) {
+    try {
+      read_level(r, key, "2,3", 1);
+      ADD_FAILURE() << key << " took a list";
+    } catch (const error& e) {
+      EXPECT_NE(std::string(e.what()).find(key), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("one number"), std::string::npos) << e.what();
+    }
+  }
 }
 
 }  // namespace
