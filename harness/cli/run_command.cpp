@@ -120,7 +120,8 @@ int start(const run_options& o, const given_options& given) {
   if (given.at("out") && o.out.empty()) throw error("--out takes the name of a file, not \"\"");
   study_options options;
   options.binding = o.binding;
-  options.out = o.out.empty() ? rows_path(o.results, plan, o.fresh || o.plan.empty()) : std::filesystem::path(o.out);
+  options.out =
+      o.out.empty() ? rows_path(o.results, plan, o.fresh || o.plan.empty(), o.binding) : std::filesystem::path(o.out);
   if (o.fresh && std::filesystem::exists(options.out))
     throw error(fmt::format("--fresh makes a new file, but {} is there", options.out.string()));
   options.builds.push_back(in_a_process(this_program()));

@@ -119,6 +119,10 @@ bool do_the_same(const compare_request& r, kind what, const measurements& all, c
   return like == p.point && has_best_granularity(all, p, r.phase) && has_best_granularity(all, q, r.phase);
 }
 
+bool share_a_round(const measured_point& p, const measured_point& q) {
+  return std::ranges::any_of(p.rounds, [&](const auto& round) { return q.rounds.contains(round.first); });
+}
+
 /// Every point of side a with its counterpart on side b.
 std::vector<compared> pairs_of(const compare_request& r, kind what, const measurements& a, const measurements& b) {
   std::vector<compared> found;
@@ -128,15 +132,23 @@ std::vector<compared> pairs_of(const compare_request& r, kind what, const measur
       if (!comparable_time(p, r.phase) || !comparable_time(q, r.phase)) continue;
       if (a.series[p.series].study != b.series[q.series].study || !do_the_same(r, what, a, p, q)) continue;
       found.push_back({&p, &q,
-                       what == kind::files ? unpaired_ratio(values_of(p, r.phase), values_of(q, r.phase))
-                                           : ratio_of(a, p, q, unsaid, r.phase)});
+                       share_a_round(p, q) && what != kind::files
+                           ? ratio_of(a, p, q, unsaid, r.phase)
+                           : unpaired_ratio(values_of(p, r.phase), values_of(q, r.phase))});
     }
   return found;
 }
 
-std::string place(const point& p, kind what) {
-  return fmt::format("{}{} {} dx={} M={} threads={}", what == kind::backends ? "" : p.backend + " ", p.case_name,
-                     p.state, p.dx, p.M, p.threads);
+/// The words of a point that are the same in most studies.
+std::string rare_words(const point& p) {
+  return fmt::format("{} {} {} {} {} H={} {}D", p.precision, p.interaction, p.smoothing, p.integrator, p.order, p.H,
+                     p.dim);
+}
+
+/// What a point is, in the words that tell the pairs apart.
+std::string place(const point& p, kind what, bool with_rare_words) {
+  return fmt::format("{}{} {} dx={} M={} threads={}{}", what == kind::backends ? "" : p.backend + " ", p.case_name,
+                     p.state, p.dx, p.M, p.threads, with_rare_words ? " " + rare_words(p) : "");
 }
 
 std::string table_of(const compare_request& r, kind what, const std::vector<compared>& pairs) {
@@ -144,13 +156,18 @@ std::string table_of(const compare_request& r, kind what, const std::vector<comp
   for (const compared& c : pairs) ratios.push_back(c.ratio);
   const std::vector<ratio_verdict> verdicts = verdicts_of(ratios);
   text_table table({"point", "rounds", "A ms", "B ms", "A/B", "[low, high]", "B is"}, 1);
+  std::set<std::pair<double, std::string>> rare;  // words by dx, which decides H
+  for (const compared& c : pairs) rare.emplace(c.a->point.dx, rare_words(c.a->point));
+  std::set<double> sizes;
+  for (const auto& [dx, words] : rare) sizes.insert(dx);
   int faster = 0, slower = 0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const compared& c = pairs[k];
     faster += verdicts[k] == ratio_verdict::faster;
     slower += verdicts[k] == ratio_verdict::slower;
-    table.add({place(c.a->point, what), fmt::format("{}/{}", c.a->rounds.size(), c.b->rounds.size()),
-               ms(*median_of(*c.a, r.phase)), ms(*median_of(*c.b, r.phase)), fmt::format("{:.3f}", c.ratio.value),
+    table.add({place(c.a->point, what, rare.size() > sizes.size()),
+               fmt::format("{}/{}", c.a->rounds.size(), c.b->rounds.size()), ms(*median_of(*c.a, r.phase)),
+               ms(*median_of(*c.b, r.phase)), fmt::format("{:.3f}", c.ratio.value),
                c.ratio.bounds ? fmt::format("[{:.3f}, {:.3f}]", c.ratio.bounds->low, c.ratio.bounds->high)
                               : std::string("too few rounds"),
                std::string(word_of(verdicts[k]))});
@@ -178,18 +195,19 @@ std::string compare_sides(const compare_request& r) {
   if (what == kind::files) {
     a = collect(read_all_rows({r.a}), false);
     b = collect(read_all_rows({r.b}), false);
-    for (const auto& [side, name] : {std::pair(&a, r.a), std::pair(&b, r.b)})
-      if (side->compares_builds)
-        throw error(
-            fmt::format("\"{}\" holds rows of several builds, and a comparison takes one a side; pairsum report "
-                        "compares them",
-                        name));
   } else if (what == kind::revisions) {
     a = collect(of_revision(rows, r.a), false);
     b = collect(of_revision(rows, r.b), false);
   } else {
     a = collect(rows, r.allow_mixed);
   }
+  if (what != kind::backends)
+    for (const auto& [side, name] : {std::pair(&a, r.a), std::pair(&b, r.b)})
+      if (side->compares_builds)
+        throw error(
+            fmt::format("\"{}\" holds rows of several builds, and a comparison takes one a side; pairsum report "
+                        "compares them",
+                        name));
   const measurements& other = what == kind::backends ? a : b;
   const std::string differ = what == kind::backends ? "" : differences(r, a, other);
   const std::vector<compared> pairs = pairs_of(r, what, a, other);

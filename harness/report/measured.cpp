@@ -24,10 +24,11 @@ struct point_less {
 struct group_key {
   std::string study;
   std::size_t build;
+  std::optional<std::uint64_t> seed;  ///< if the particles depend on it
   struct point point;
   bool operator<(const group_key& other) const {
-    return std::tie(study, build) != std::tie(other.study, other.build)
-               ? std::tie(study, build) < std::tie(other.study, other.build)
+    return std::tie(study, build, seed) != std::tie(other.study, other.build, other.seed)
+               ? std::tie(study, build, seed) < std::tie(other.study, other.build, other.seed)
                : point_less()(point, other.point);
   }
 };
@@ -36,6 +37,12 @@ struct group {
   std::map<round_key, std::map<int, std::vector<sample>>> rounds;  ///< by repetition
   int cores = 1;
 };
+
+/// Another seed makes other particles, or another order of them, unless the case is at rest and in order.
+std::optional<std::uint64_t> seed_of(const sample& s) {
+  const bool same = s.point.state == "rest" && s.point.order != "shuffled" && !s.point.case_name.starts_with("random");
+  return same ? std::nullopt : std::optional(s.seed);
+}
 
 bool verified(const sample& s) { return !s.error && s.phases && s.verify.fingerprint; }
 
@@ -48,10 +55,10 @@ std::size_t series_of(measurements& all, const group_key& key, const builds& kno
   common.threads = 0;
   for (std::size_t i = 0; i < all.series.size(); ++i) {
     const series& s = all.series[i];
-    if (s.study == key.study && s.build == key.build && s.common == common) return i;
+    if (s.study == key.study && s.build == key.build && s.seed == key.seed && s.common == common) return i;
   }
   all.series.push_back(
-      {key.study, key.build, known.first(key.build).environment, build_name(known.first(key.build)), common});
+      {key.study, key.build, known.first(key.build).environment, build_name(known.first(key.build)), key.seed, common});
   return all.series.size() - 1;
 }
 
@@ -132,7 +139,7 @@ measurements collect(const std::vector<rows_file>& files, bool allow_mixed) {
       const std::size_t build = known.add(e);
       all.build_of_environment[e.environment] = build;
       builds_of_round[{s.study, s.round}].insert(build);
-      group& g = groups[{s.study, build, s.point}];
+      group& g = groups[{s.study, build, seed_of(s), s.point}];
       g.cores = e.cores;
       g.rounds[{file, s.round}][s.repetition].push_back(s);
     }

@@ -29,9 +29,10 @@ struct round_value {
 /// they differ in backend, grid, M and threads only, which are empty in `common`.
 struct series {
   std::string study;
-  std::size_t build = 0;    ///< which of the different machines and builds
-  std::string environment;  ///< id of the first environment row of that build
-  std::string build_name;   ///< its compiler and revision
+  std::size_t build = 0;              ///< which of the different machines and builds
+  std::string environment;            ///< id of the first environment row of that build
+  std::string build_name;             ///< its compiler and revision
+  std::optional<std::uint64_t> seed;  ///< if the particles depend on it
   struct point common;
 };
 

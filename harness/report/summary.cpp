@@ -113,6 +113,7 @@ json series_entry(const series& s) {
   entry["study"] = s.study;
   entry["environment"] = s.environment;
   entry["build"] = s.build_name;
+  entry["seed"] = s.seed ? json(*s.seed) : json(nullptr);
   return entry;
 }
 

@@ -108,7 +108,10 @@ class line_parser {
     rows_.environments.push_back(std::move(e));
   }
   void keep(void_row&& v) { rows_.voids.push_back(std::move(v)); }
-  void keep(end_row&& e) { rows_.ends.push_back(std::move(e)); }
+  void keep(end_row&& e) {
+    rows_.ends.push_back(std::move(e));
+    rows_.rounds_before_end.push_back(rows_.rounds.size());
+  }
   void keep(peak_row&& p) {
     known(p.environment);
     rows_.peaks.push_back(std::move(p));

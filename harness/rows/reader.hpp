@@ -19,7 +19,8 @@ struct rows_file {
   std::vector<peak_row> peaks;
   std::vector<round_row> rounds;
   std::vector<end_row> ends;
-  bool last_line_cut = false;  ///< a cut last line was dropped
+  std::vector<std::size_t> rounds_before_end;  ///< of each end row: how many round rows stand before it
+  bool last_line_cut = false;                  ///< a cut last line was dropped
 
   std::size_t size() const {
     return samples.size() + environments.size() + voids.size() + peaks.size() + rounds.size() + ends.size();

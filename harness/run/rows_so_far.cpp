@@ -16,13 +16,16 @@ rows_so_far::rows_so_far(const std::filesystem::path& path, const study_plan& pl
   for (const void_row& v : rows_.voids) last_round_ = std::max(last_round_, v.round);
   for (const round_row& r : rows_.rounds) last_round_ = std::max(last_round_, r.round);
   const std::string hash = plan_hash(plan);
-  std::string ended;
-  for (const end_row& e : rows_.ends)
-    if (e.study == study_ && e.plan == hash) ended = std::max(ended, e.utc);
+  std::set<int> before;  // rounds that stand before the last end
+  for (std::size_t k = 0; k < rows_.ends.size(); ++k) {
+    if (rows_.ends[k].study != study_ || rows_.ends[k].plan != hash) continue;
+    for (std::size_t r = 0; r < rows_.rounds_before_end[k]; ++r)
+      if (rows_.rounds[r].study == study_) before.insert(rows_.rounds[r].round);
+  }
   for (const round_row& r : rows_.finished_rounds()) {
     if (r.study != study_ || r.plan != hash) continue;
     replicates_[r.part] = std::max(replicates_[r.part], r.replicate);
-    if (r.utc > ended) rounds_[r.part].push_back(r);
+    if (!before.contains(r.round)) rounds_[r.part].push_back(r);
   }
 }
 

@@ -34,14 +34,15 @@ environment_row own_environment(const study_plan& plan, const std::string& bindi
 bool same_machine(const environment_row& a, const environment_row& b) { return a.host == b.host && a.cpu == b.cpu; }
 
 bool same_build(const environment_row& a, const environment_row& b) {
-  return same_machine(a, b) && a.compiler == b.compiler && a.flags == b.flags && a.git == b.git && a.dirty == b.dirty;
+  return same_machine(a, b) && a.compiler == b.compiler && a.flags == b.flags && a.git == b.git && a.dirty == b.dirty &&
+         a.binding == b.binding;
 }
 
 /// What differs, for the message.
 std::string other_build(const environment_row& there, const environment_row& here) {
   const auto say = [](const environment_row& e) {
-    return fmt::format("{}, git {}{}, {}, {}", e.host, e.git, e.dirty ? " with uncommitted changes" : "", e.compiler,
-                       e.flags);
+    return fmt::format("{}, git {}{}, {}, {}, binding {}", e.host, e.git, e.dirty ? " with uncommitted changes" : "",
+                       e.compiler, e.flags, e.binding);
   };
   return fmt::format("{}; this is {}", say(there), say(here));
 }
@@ -368,19 +369,21 @@ class conductor {
 
 }  // namespace
 
-std::filesystem::path rows_path(const std::filesystem::path& results, const study_plan& plan, bool fresh) {
-  const environment_row here = describe_environment(plan.study);
+std::filesystem::path rows_path(const std::filesystem::path& results, const study_plan& plan, bool fresh,
+                                const std::string& binding) {
+  const environment_row here = own_environment(plan, binding);
   const std::filesystem::path folder = results / plan.study;
   std::filesystem::path newest;
   std::error_code code;
-  if (!fresh)
+  if (!fresh && !here.dirty)  // two builds with uncommitted changes cannot be told apart
     for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
       if (entry.path().extension() != ".jsonl" || entry.path() < newest) continue;
       try {
         const file_lock lock(entry.path());  // refused if it is being written
         const rows_so_far rows(entry.path(), plan);
         const auto& there = rows.rows().environments;
-        if (rows.unended() && !there.empty() && same_build(there.front(), here)) newest = entry.path();
+        const bool ours = std::ranges::any_of(there, [&](const environment_row& e) { return same_build(e, here); });
+        if (rows.unended() && ours) newest = entry.path();
       } catch (const error&) {  // no rows file, one of another version, or being written: nothing to resume
       }
     }

@@ -17,8 +17,10 @@ struct study_options {
 
 /// Where rows go if the user does not say: an unfinished file of the same plan, machine and build under
 /// <results>/<study>, else a new <results>/<study>/<host>-<utc>-<git>.jsonl.
-/// @param fresh never an unfinished one
-std::filesystem::path rows_path(const std::filesystem::path& results, const study_plan& plan, bool fresh);
+/// @param fresh never an unfinished one, as with a build of uncommitted changes
+/// @param binding as in study_options
+std::filesystem::path rows_path(const std::filesystem::path& results, const study_plan& plan, bool fresh,
+                                const std::string& binding = "cores_first");
 
 /// Carries a plan out and appends its rows: per part first every point is verified, then rounds are measured, each in a
 /// fresh process per build, until the part has its rounds, its intervals are narrow enough or its share of the budget

@@ -15,10 +15,9 @@ struct named {
 };
 
 constexpr named schedules[] = {
-    {"dynamic", schedule::dynamic, runtime::omp},   {"static", schedule::fixed, runtime::omp},
-    {"guided", schedule::guided, runtime::omp},     {"auto", schedule::automatic, runtime::tbb},
-    {"simple", schedule::simple, runtime::tbb},     {"static", schedule::fixed, runtime::tbb},
-    {"affinity", schedule::affinity, runtime::tbb},
+    {"dynamic", schedule::dynamic, runtime::omp}, {"static", schedule::fixed, runtime::omp},
+    {"guided", schedule::guided, runtime::omp},   {"auto", schedule::automatic, runtime::tbb},
+    {"simple", schedule::simple, runtime::tbb},   {"static", schedule::fixed, runtime::tbb},
 };
 
 [[noreturn]] void reject(std::string_view word, runtime r) {

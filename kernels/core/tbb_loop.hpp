@@ -30,11 +30,6 @@ void tbb_pass(unsigned pass, std::size_t begin, std::size_t end, const granulari
     case schedule::fixed:
       ::tbb::parallel_for(all, piece, ::tbb::static_partitioner{});
       break;
-    case schedule::affinity: {
-      ::tbb::affinity_partitioner partitioner;
-      ::tbb::parallel_for(all, piece, partitioner);
-      break;
-    }
     default:
       ::tbb::parallel_for(all, piece, ::tbb::auto_partitioner{});
   }

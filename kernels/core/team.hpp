@@ -16,8 +16,8 @@ constexpr std::string_view name_of(runtime r) {
 }
 
 /// How a parallel loop is shared out: OpenMP's schedules (dynamic, fixed, guided) or oneTBB's partitioners (automatic,
-/// simple, fixed, affinity).
-enum class schedule { none, dynamic, fixed, guided, automatic, simple, affinity };
+/// simple, fixed).
+enum class schedule { none, dynamic, fixed, guided, automatic, simple };
 
 /// A schedule and its chunk (OpenMP) or grain (oneTBB), in iterations.
 struct granularity {

@@ -86,7 +86,7 @@ TEST_P(passes_test, granularity_does_not_change_a_bit) {
   const runtime kind = sum->traits().threads;
   const std::vector<std::string> words =
       kind == runtime::omp   ? std::vector<std::string>{"dynamic:1", "dynamic:500", "static:0", "static:7", "guided:2"}
-      : kind == runtime::tbb ? std::vector<std::string>{"auto:1", "simple:8", "static:1", "affinity:16", "auto:100000"}
+      : kind == runtime::tbb ? std::vector<std::string>{"auto:1", "simple:8", "static:1", "auto:100000"}
                              : std::vector<std::string>{"none"};
   const workers w(kind, 3);
   for (const std::string& word : words) {
@@ -99,7 +99,7 @@ TEST_P(passes_test, granularity_does_not_change_a_bit) {
 TEST(granularity, words_go_there_and_back) {
   for (const char* word : {"dynamic:32", "guided:1", "static:0", "static:64"})
     EXPECT_EQ(name_of(parse_granularity(word, runtime::omp)), word);
-  for (const char* word : {"auto:32", "simple:1", "static:8", "affinity:64"})
+  for (const char* word : {"auto:32", "simple:1", "static:8"})
     EXPECT_EQ(name_of(parse_granularity(word, runtime::tbb)), word);
   EXPECT_EQ(name_of(parse_granularity("dynamic:32", runtime::serial)), "none");
 }
@@ -118,7 +118,7 @@ TEST(granularity, wrong_words_are_refused_with_the_right_ones) {
     EXPECT_TRUE(says(error_of([&] { parse_granularity(word, runtime::omp); }), {"OpenMP", "dynamic:N", "guided:N"}))
         << word;
   for (const char* word : {"dynamic:4", "static:0", "auto:0", ":", "simple"})
-    EXPECT_TRUE(says(error_of([&] { parse_granularity(word, runtime::tbb); }), {"oneTBB", "auto:N", "affinity:N"}))
+    EXPECT_TRUE(says(error_of([&] { parse_granularity(word, runtime::tbb); }), {"oneTBB", "auto:N", "simple:N"}))
         << word;
 }
 
