@@ -2,85 +2,12 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <csignal>
-#include <set>
-
-#include "core/error.hpp"
-#include "harness/environment/environment.hpp"
-#include "harness/rows/writer.hpp"
-#include "lying_backends.hpp"
-#include "study_fixture.hpp"
+#include "cut_studies.hpp"
 
 namespace pairsum::harness {
 namespace {
 
-struct killed {};
-
-/// In this process, but calls `before_end(order, how often it was called)` when the rows of an order are written.
-launcher watched(std::function<departure(const order&, int)> before_end, const registry& all = registry::instance()) {
-  return [&all, before_end = std::move(before_end), n = 0](const order& o) mutable {
-    const departure end = in_this_process(all)(o);
-    const departure instead = before_end(o, ++n);
-    return instead.code != 0 || instead.signal != 0 ? instead : end;
-  };
-}
-
-/// Ends so at the rounds with these numbers.
-launcher ending(std::set<int> rounds, departure how) {
-  return watched(
-      [=](const order& o, int) { return o.what == errand::measure && rounds.count(o.round) != 0 ? how : departure{}; });
-}
-
-class resume : public study_test {
- protected:
-  static constexpr departure signal_9{0, SIGKILL, 0}, interrupt{130, 0, 0};
-
-  int conduct_with(launcher l) { return conduct_here(plan_, path_, registry::instance(), {std::move(l)}); }
-  int conduct_again() { return conduct_here(plan_, path_); }
-
-  /// The study's process is killed when the rows of that round are written.
-  void kill_in_round(int round) {
-    EXPECT_THROW(conduct_with(watched([=](const order& o, int) -> departure {
-                   if (o.what == errand::measure && o.round == round) throw killed{};
-                   return {};
-                 })),
-                 killed);
-  }
-
-  /// Every replicate of every part is there once, and nothing else counts.
-  void expect_whole() const {
-    const rows_file rows = read_rows(path_);
-    std::multiset<std::pair<std::string, int>> found, wanted;
-    for (const round_row& r : rows.finished_rounds()) found.emplace(r.part, r.replicate);
-    for (const part_plan& p : plan_.parts)
-      for (int k = 1; k <= p.most_rounds; ++k) wanted.emplace(p.request.part, k);
-    EXPECT_EQ(found, wanted);
-    EXPECT_TRUE(rows.unfinished_rounds().empty());
-    EXPECT_EQ(rows.ends.size(), 1u);
-    EXPECT_EQ(rows.valid_samples().size(), found.size() * 2);
-  }
-
-  std::vector<int> voided() const {
-    std::vector<int> rounds;
-    for (const void_row& v : read_rows(path_).voids) rounds.push_back(v.round);
-    return rounds;
-  }
-
-  void expect_refused(const std::string& says) {
-    const std::string before = text_of(path_);
-    try {
-      conduct_again();
-      ADD_FAILURE() << "accepted, should say: " << says;
-    } catch (const error& e) {
-      EXPECT_NE(std::string(e.what()).find(says), std::string::npos) << e.what();
-      EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
-    }
-    EXPECT_EQ(text_of(path_), before);
-  }
-
-  study_plan plan_ = study_of({small_part("a", 2), small_part("b", 2)});
-};
+using resume = cut_study;
 
 TEST_F(resume, a_round_that_was_cut_is_voided_and_measured_again) {
   kill_in_round(2);
@@ -192,58 +119,6 @@ TEST_F(resume, a_cut_file_is_found_under_the_results) {
   EXPECT_NE(rows_path(folder_, plan_, false, "none"), path_) << "it came to its end";
 }
 
-TEST_F(resume, a_process_that_was_killed_has_its_round_repeated) {
-  ASSERT_EQ(conduct_with(ending({1, 2, 4}, signal_9)), 0);
-  EXPECT_EQ(voided(), (std::vector<int>{1, 2, 4}));
-  expect_whole();
-}
-
-TEST_F(resume, a_round_whose_process_dies_each_time_is_given_up) {
-  EXPECT_EQ(conduct_with(ending({2, 3, 4, 5}, signal_9)), 2);
-  EXPECT_EQ(voided(), (std::vector<int>{2, 3, 4}));
-  EXPECT_TRUE(read_rows(path_).ends.empty());
-  ASSERT_EQ(conduct_again(), 0);
-  expect_whole();
-}
-
-TEST_F(resume, a_verification_that_was_killed_is_repeated_and_given_up) {
-  int killed_times = 0;
-  const auto at_verify = [&](int times) {
-    return watched([&, times](const order& o, int) {
-      return o.what == errand::verify && killed_times < times ? (++killed_times, signal_9) : departure{};
-    });
-  };
-  ASSERT_EQ(conduct_with(at_verify(2)), 0);
-  expect_whole();
-  std::filesystem::remove(path_);
-  killed_times = 0;
-  EXPECT_EQ(conduct_with(at_verify(100)), 2);
-  EXPECT_EQ(killed_times, 3);
-  EXPECT_FALSE(std::filesystem::exists(path_)) << "nothing was measured";
-}
-
-TEST_F(resume, an_interrupt_voids_the_round_and_ends_without_an_end_row) {
-  EXPECT_EQ(conduct_with(ending({2}, interrupt)), 130);
-  EXPECT_EQ(voided(), (std::vector<int>{2}));
-  EXPECT_TRUE(read_rows(path_).ends.empty());
-  ASSERT_EQ(conduct_again(), 0);
-  expect_whole();
-}
-
-TEST_F(resume, a_file_that_cannot_be_written_is_told_at_once_and_nothing_is_left) {
-  int launched = 0;
-  const launcher count = [&](const order&) {
-    ++launched;
-    return departure{2, 0, 0};
-  };
-  const std::string said =
-      refusal_of([&] { conduct_here(plan_, "/proc/none/rows.jsonl", registry::instance(), {count}); });
-  EXPECT_NE(said.find("cannot write rows"), std::string::npos) << said;
-  EXPECT_EQ(launched, 0);
-  EXPECT_EQ(conduct_with(count), 2);
-  EXPECT_FALSE(std::filesystem::exists(folder_));
-}
-
 TEST_F(resume, of_a_new_file_two_studies_cannot_write) {
   std::string said;
   ASSERT_EQ(conduct_with(watched([&](const order& o, int) {
@@ -253,29 +128,6 @@ TEST_F(resume, of_a_new_file_two_studies_cannot_write) {
             0);
   EXPECT_NE(said.find("is being written by another"), std::string::npos) << said;
   expect_whole();
-}
-
-TEST_F(resume, bad_input_that_a_process_finds_ends_the_study) {
-  EXPECT_EQ(conduct_with(ending({2}, {2, 0, 0})), 2);
-  EXPECT_EQ(voided(), (std::vector<int>{2}));
-  EXPECT_TRUE(read_rows(path_).ends.empty());
-}
-
-TEST_F(resume, a_point_that_failed_before_is_not_forgotten) {
-  const registry broken = broken_registry();
-  plan_ = study_of({small_part("a", 2)});
-  plan_.parts[0].request.backends = {"broken_none", "broken_drop_pair"};
-  EXPECT_THROW(conduct_here(plan_, path_, broken,
-                            {watched(
-                                [](const order& o, int) -> departure {
-                                  if (o.what == errand::measure && o.round == 2) throw killed{};
-                                  return {};
-                                },
-                                broken)}),
-               killed);
-  plan_.parts[0].most_rounds = 2;
-  EXPECT_EQ(conduct_here(plan_, path_, broken), 1);
-  EXPECT_EQ(conduct_here(plan_, path_, broken), 1);
 }
 
 }  // namespace
