@@ -86,7 +86,8 @@ TEST_F(report_of_machine, no_bound_without_peaks_work_or_formula) {
                                     {"naive", 7, 1, 1.0, 6, uncounted},
                                     {"naive", 8, 1, 1.0, 6, unknown},
                                     {"of_another_build", 6, 1, 1.0, 6, counting}});
-  for (const json& p : make()["points"]) EXPECT_TRUE(p["model"].is_null()) << p["point"];
+  const json s = make();
+  for (const json& p : s["points"]) EXPECT_TRUE(p["model"].is_null()) << p["point"];
 }
 
 TEST_F(report_of_machine, peaks_count_for_every_environment_of_their_build) {

@@ -57,7 +57,7 @@ def test_each_is_verified(pairsum, words):
 def test_the_integrator_makes_verified_steps(pairsum, tmp_path):
     done = pairsum("run", "--case", "lattice", "--dim", "2", "--dx", "0.05", "--state", "perturbed", "--smoothing", "my_kernel",
                    "--backend", "my_sum", "--integrator", "my_steps", "--M", "4", "--threads", "1", "--steps", "3",
-                   "--repetitions", "1", "--out", tmp_path / "rows.jsonl")
+                   "--rounds", "1", "--repetitions", "1", "--out", tmp_path / "rows.jsonl")
     assert done.returncode == 0, done.stdout + done.stderr
     assert (tmp_path / "rows.jsonl").read_text().count('"integrator":"my_steps"') == 3
 
