@@ -182,7 +182,7 @@ def test_kill_within_a_round(cut_study, uninterrupted):
     assert code == 0, said
     assert "resuming" in said and f"3 of {ROUNDS} rest, 0 of {ROUNDS} perturbed" in said
     assert [row["round"] for row in of_kind(cut_study.rows(), "void")] == [rows[-1]["round"]]
-    assert check(cut_study.rows()) == uninterrupted[1]
+    assert check(cut_study.rows()) == uninterrupted[-1]
 
 
 def test_a_killed_worker_voids_its_round_only(cut_study, uninterrupted):
@@ -195,7 +195,7 @@ def test_a_killed_worker_voids_its_round_only(cut_study, uninterrupted):
     assert f"round {rows[-1]['round']} is voided and measured again" in said and "signal 9" in said
     (void,) = of_kind(cut_study.rows(), "void")
     assert void["round"] == rows[-1]["round"] and "signal 9" in void["reason"]
-    assert check(cut_study.rows()) == uninterrupted[1]
+    assert check(cut_study.rows()) == uninterrupted[-1]
 
 
 def test_workers_that_always_die_end_the_study(cut_study, uninterrupted):
@@ -213,7 +213,7 @@ def test_workers_that_always_die_end_the_study(cut_study, uninterrupted):
     assert "given up" in said and not of_kind(cut_study.rows(), "end")
     code, said = cut_study.run()
     assert code == 0, said
-    assert check(cut_study.rows()) == uninterrupted[1]
+    assert check(cut_study.rows()) == uninterrupted[-1]
 
 
 @pytest.mark.parametrize("whom, number", [("group", signal.SIGINT), ("conductor", signal.SIGINT), ("conductor", signal.SIGTERM)])
@@ -239,7 +239,7 @@ def test_interrupt_and_terminate(cut_study, uninterrupted, whom, number):
     code, said = cut_study.run()
     assert code == 0, said
     assert "resuming" in said
-    assert check(cut_study.rows()) == uninterrupted[1]
+    assert check(cut_study.rows()) == uninterrupted[-1]
 
 
 def test_an_ended_study_is_measured_once_more(cut_study, uninterrupted):
@@ -248,7 +248,7 @@ def test_an_ended_study_is_measured_once_more(cut_study, uninterrupted):
         assert code == 0, said
         assert "resuming" not in said
     twice = check(cut_study.rows(), replicates=2 * ROUNDS, ends=2)
-    assert {key: twice[key] for key in uninterrupted[1]} == uninterrupted[1]
+    assert {key: twice[key] for key in uninterrupted[-1]} == uninterrupted[-1]
 
 
 def test_fresh_refuses_a_file_that_is_there(pairsum, cut_study):
@@ -265,7 +265,7 @@ def test_two_runs_do_not_write_one_file(pairsum, cut_study, uninterrupted):
     assert process.poll() is None, "it ended too early for this test"
     said, _ = process.communicate(timeout=120)
     assert process.returncode == 0, said
-    assert check(cut_study.rows()) == uninterrupted[1]
+    assert check(cut_study.rows()) == uninterrupted[-1]
 
 
 def test_another_plan_in_the_same_file_counts_for_itself(cut_study):
