@@ -55,8 +55,6 @@ class interaction_columns {
     v.reach2 = H_ * H_;
     v.boundary_reach2 = reach * reach;
     v.fluid_count = fluid_.size();
-    v.count = fluid_.size() + boundary_.size();
-    v.particles = &p;
     return v;
   }
 
