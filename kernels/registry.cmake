@@ -9,6 +9,9 @@ set(PAIRSUM_ALL_BACKENDS
   symmetric
   symmetric_omp
   symmetric_tbb
+  tiles_omp
+  tiles_tbb
+  naive_tiles_omp
 )
 set(PAIRSUM_ALL_SMOOTHED_INTERACTIONS  # those that take a smoothing kernel
   ferrari09

@@ -1,0 +1,132 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "sum/candidates.hpp"
+#include "vector/lanes.hpp"
+
+namespace pairsum {
+
+/// Candidates around one place, copied together: positions relative to it, in float whatever the working precision, so
+/// that a distance test takes twice the lanes of double. It tests |x_j|^2 - 2 x_i.x_j < reach^2 - |x_i|^2, one fused
+/// multiply-add per component, and lets a little more pass than is in reach: whoever uses the hits decides in the
+/// working precision.
+template <int D, class V>
+class alignas(4096) nearby {
+  using tag = lane_tag<float>;
+  static constexpr std::size_t N = lane_count<float>;
+
+ public:
+  static constexpr std::size_t capacity = 1104;
+
+  /// Starts over, around `origin`. `total`: size of the columns x.
+  template <class R>
+  void clear(const vec<D, R>& origin, R reach2) {
+    for (int c = 0; c < D; ++c) origin_[c] = origin[c];
+    // Within `near` reaches of the origin per component, u = 2^-24: |x_i|^2 <= 48 and |x_j|^2 <= 63 reaches^2; the sum
+    // rounds four times at most 111 u, the rounding of x_i and x_j themselves adds 32 u: below 3e-5 in all.
+    widened_ = static_cast<float>(static_cast<double>(reach2) * (1 + 5e-5));
+    limit_ = near * std::sqrt(widened_);
+    n_ = 0;
+  }
+  std::size_t size() const { return n_; }
+  bool full() const { return n_ == capacity; }
+
+  /// Is x near enough to the origin to be tested against the candidates? (Cells that fold together have particles
+  /// that lie far apart.) If so, `place` is where.
+  template <class R>
+  bool has_near(const vec<D, R>& x, float (&place)[D]) const {
+    bool in = true;
+    for (int c = 0; c < D; ++c) {
+      place[c] = static_cast<float>(x[c] - static_cast<R>(origin_[c]));
+      in = in && std::abs(place[c]) < limit_;
+    }
+    return in;
+  }
+
+  /// Takes candidates from `range` until full; what is left stays in the range.
+  template <class R>
+  HWY_INLINE void take(const positions<D, R>& x, std::size_t total, index_range& range) {
+    const tag d;
+    const lane_tag<std::uint32_t> di;
+    const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(range.end, range.begin + (capacity - n_)));
+    auto index = hn::Iota(di, range.begin);
+    std::size_t slot = n_;
+    for (std::size_t j = range.begin; j < end; j += N, slot += N, index = hn::Add(index, hn::Set(di, N))) {
+      auto square = hn::Zero(d);
+      for (int c = 0; c < D; ++c) {
+        const auto v = relative(x.column[c], j, total, static_cast<R>(origin_[c]));
+        hn::StoreU(v, d, x_[c] + slot);
+        square = hn::MulAdd(v, v, square);
+      }
+      hn::StoreU(square, d, square_ + slot);
+      hn::StoreU(index, di, index_ + slot);
+    }
+    n_ += end - range.begin;
+    range.begin = end;
+  }
+
+  /// To be called when all were taken: nothing behind the last is in reach of anything.
+  HWY_INLINE void close() {
+    const tag d;
+    hn::StoreU(hn::Set(d, 1e30f), d, square_ + n_);
+    for (int c = 0; c < D; ++c) hn::StoreU(hn::Zero(d), d, x_[c] + n_);
+  }
+
+  /// Writes the indices of the candidates in slots first .. last-1 that pass the test from `place`, in their order, to
+  /// `hits`, which needs room for a vector more than there are; returns their end. What is behind the last slot is
+  /// taken for a candidate unless `masked`, see close().
+  template <bool masked>
+  HWY_INLINE std::uint32_t* find(const float (&place)[D], std::size_t first, std::size_t last,
+                                 std::uint32_t* hits) const {
+    const tag d;
+    const lane_tag<std::uint32_t> di;
+    float own = 0;
+    for (int c = 0; c < D; ++c) own += place[c] * place[c];
+    const auto limit = hn::Set(d, widened_ - own);
+    for (std::size_t k = first; k < last; k += N) {
+      auto sum = hn::LoadU(d, square_ + k);
+      for (int c = 0; c < D; ++c) sum = hn::NegMulAdd(hn::Set(d, 2 * place[c]), hn::LoadU(d, x_[c] + k), sum);
+      auto in = hn::Lt(sum, limit);
+      if constexpr (masked)
+        if (k + N > last) in = hn::And(in, hn::FirstN(d, last - k));
+      const auto mask = hn::RebindMask(di, in);
+      hn::StoreU(hn::Compress(hn::LoadU(di, index_ + k), mask), di, hits);
+      hits += hn::CountTrue(di, mask);
+    }
+    return hits;
+  }
+
+ private:
+  static constexpr float near = 4;
+
+  /// x[j ..) - origin; beyond `total` anything.
+  static HWY_INLINE hn::Vec<tag> relative(const float* x, std::size_t j, std::size_t total, float origin) {
+    return hn::Sub(values(tag(), x, j, total), hn::Set(tag(), origin));
+  }
+  static HWY_INLINE hn::Vec<tag> relative(const double* x, std::size_t j, std::size_t total, double origin) {
+    const lane_tag<double> d;
+    const hn::Rebind<float, lane_tag<double>> half;
+    const auto o = hn::Set(d, origin);
+    return hn::Combine(tag(), hn::DemoteTo(half, hn::Sub(values(d, x, j + N / 2, total), o)),
+                       hn::DemoteTo(half, hn::Sub(values(d, x, j, total), o)));
+  }
+  template <class T, class R>
+  static HWY_INLINE hn::Vec<T> values(T d, const R* x, std::size_t j, std::size_t total) {
+    if (j + hn::MaxLanes(T()) <= total) return hn::LoadU(d, x + j);
+    return j < total ? hn::MaskedLoad(hn::FirstN(d, total - j), d, x + j) : hn::Zero(d);
+  }
+
+  // The columns of a cell with its neighbours (some 100 candidates) lie at different places of a page: a load whose
+  // address differs from a recent store's by a multiple of 4096 waits for it.
+  static constexpr std::size_t room = 1168;
+  static_assert(room >= capacity + 2 * N);
+  HWY_ALIGN float x_[D][room];
+  HWY_ALIGN float square_[room];
+  HWY_ALIGN std::uint32_t index_[room];
+  double origin_[D];
+  float widened_, limit_;
+  std::size_t n_ = 0;
+};
+
+}  // namespace pairsum

@@ -1,0 +1,56 @@
+#pragma once
+#include "sum/problem.hpp"
+
+namespace pairsum {
+
+/// Rows are read in blocks of so many values.
+inline constexpr std::size_t row_block = 4;
+
+/// n values, padded to whole blocks.
+constexpr std::size_t padded(std::size_t n) { return (n + row_block - 1) / row_block * row_block; }
+
+/// Has a vector of lanes of R the same fields as S, so that formulas take it?
+template <class S, class R>
+constexpr bool made_of() {
+  if constexpr (fields_detail::is_struct<S>)
+    return []<class... P>(std::tuple<P...>) {
+      return (std::is_same_v<typename fields_detail::member<P>::type::scalar, R> && ...);
+    }(S::fields());
+  else
+    return std::is_same_v<typename fields_detail::field<S>::scalar, R>;
+}
+
+/// Do lanes carry everything interaction I brings to a pair and takes from it? Whole numbers are summed one pair at a
+/// time.
+template <class I>
+inline constexpr bool takes_lanes =
+    made_of<particle_of<I>, typename I::real>() && made_of<boundary_particle_of<I>, typename I::real>() &&
+    made_of<rates_of<I>, typename I::real>();
+
+/// What a vector kernel sees: the problem, and the fluid once more as rows, so that a particle that was found is loaded
+/// whole: its position and the fields it brings to a pair, then, from `rates_at` on, its rates. For the talk's formula
+/// in 3D and double that makes two cache lines. Row fluid_count and those behind it, one per thread, are far away from
+/// everything: lanes without a particle point there.
+template <class I>
+struct tile_problem {
+  using real = typename I::real;
+  static constexpr std::size_t values = I::dim + field_count<particle_of<I>>, rates = field_count<rates_of<I>>;
+  static constexpr std::size_t rates_at = padded(values), stride = rates_at + padded(rates);
+
+  const problem<I>* p;
+  real* rows;  ///< [particle][stride], on 64-byte boundaries
+};
+
+/// Sums the cells `cell[0..n)`: their fluid with the forward half of their neighbours, both sides (symmetric), or with
+/// all of them, their own side (gather). `spare` is the number of the caller's row behind the fluid.
+template <class I>
+using tile_function = void (*)(const tile_problem<I>&, const std::uint32_t* cell, std::size_t n, std::uint32_t spare);
+
+/// The kernels of one instruction set.
+template <class I>
+struct tile_kernels {
+  std::string_view isa;
+  tile_function<I> symmetric, gather;
+};
+
+}  // namespace pairsum
