@@ -9,13 +9,17 @@
 namespace pairsum {
 
 /// What a grid has to say: the key of a particle's cell, and which cells are neighbours. Everything else (sorting,
-/// ranges) is the indexer's; a grid is asked once per step, so its virtual calls cost nothing.
+/// ranges) is the indexer's; a grid is asked once per step and piece of the particles, so its virtual calls cost
+/// nothing.
 template <int D, class R>
 class grid {
  public:
   virtual ~grid() = default;
 
-  /// Number of cells, empty ones included.
+  /// Looks at the particles before keys(), for grids whose cells depend on them; those outside Omega and lost ones do
+  /// not count. Returns whether keys mean other cells than before: if not, whoever kept its cell keeps its key.
+  virtual bool adapt(const particle_set<D, R>&, const team&) { return false; }
+  /// Number of cells, empty ones included, of a grid that has them; known after connect().
   virtual std::size_t total_cells() const = 0;
   /// Keys are below 2^key_bits() <= 2^30.
   virtual int key_bits() const = 0;

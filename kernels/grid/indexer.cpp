@@ -7,6 +7,7 @@ namespace pairsum {
 
 template <int D, class R>
 void indexer<D, R>::build(particle_set<D, R>& p, const team& t) {
+  grid_->adapt(p, t);
   make_keys(p, t);
   sort(p, t);
   make_cells(t);
@@ -99,7 +100,6 @@ void indexer<D, R>::make_cells(const team& t) {
   auto end_of = [](const std::vector<std::uint32_t>& s, std::size_t k, std::size_t end) {
     return k + 1 < s.size() ? s[k + 1] : static_cast<std::uint32_t>(end);
   };
-  cells_.total = grid_->total_cells();
   cells_.fluid_cells = fluid_starts.size();
   cells_.range.clear();
   cells_.range.resize(fluid_starts.size() + 1);
@@ -123,6 +123,7 @@ void indexer<D, R>::make_cells(const team& t) {
     }
   }
   grid_->connect(cell_keys_, cells_, t);
+  cells_.total = grid_->total_cells();
 }
 
 template class indexer<1, double>;
