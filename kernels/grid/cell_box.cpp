@@ -36,7 +36,8 @@ cell_box<D> box_of(const particle_set<D, R>& p, std::size_t begin, std::size_t e
     }
   }
   cell_box<D> found;
-  for (int d = 0; d < D; ++d) found.low[d] = low[d], found.high[d] = high[d];
+  if (high[0] >= 0)
+    for (int d = 0; d < D; ++d) found.low[d] = low[d], found.high[d] = high[d];
   return found;
 }
 
@@ -56,22 +57,39 @@ std::string cell_box<D>::text() const {
   return all;
 }
 
+template <int D>
+cell_box<D> cell_box<D>::with(const cell_box& o) const {
+  if (empty()) return o;
+  if (o.empty()) return *this;
+  cell_box both;
+  for (int d = 0; d < D; ++d) {
+    both.low[d] = std::min(low[d], o.low[d]);
+    both.high[d] = std::max(high[d], o.high[d]);
+  }
+  return both;
+}
+
 template <int D, class R>
-cell_box<D> occupied_box(const particle_set<D, R>& p, const box<D, R>& omega, const cell_scale<D, R>& scale,
-                         const team& t) {
+cell_box<D> occupied_box(const particle_set<D, R>& p, std::size_t begin, std::size_t end, const box<D, R>& omega,
+                         const cell_scale<D, R>& scale, const team& t) {
   std::vector<cell_box<D>> parts(static_cast<std::size_t>(t.threads()));
-  t.for_pieces(p.size(), [&](std::size_t begin, std::size_t end, std::size_t piece) {
-    parts[piece] = scale.with_integer([&](auto i) { return box_of<decltype(i)>(p, begin, end, omega, scale); });
+  t.for_pieces(end - begin, [&](std::size_t b, std::size_t e, std::size_t piece) {
+    parts[piece] =
+        scale.with_integer([&](auto i) { return box_of<decltype(i)>(p, begin + b, begin + e, omega, scale); });
   });
-  cell_box<D> all = parts.front();
-  for (const cell_box<D>& b : parts)
-    for (int d = 0; d < D; ++d) {
-      all.low[d] = std::min(all.low[d], b.low[d]);
-      all.high[d] = std::max(all.high[d], b.high[d]);
-    }
-  for (int d = 0; d < D; ++d)
-    if (all.high[d] < 0) all.low[d] = 0;  // no particle: all edges have length 0
+  cell_box<D> all;
+  for (const cell_box<D>& b : parts) all = all.with(b);
   return all;
+}
+
+template <int D, class R>
+cell_box<D> box_follower<D, R>::fit(const particle_set<D, R>& p, std::size_t moved, const box<D, R>& omega,
+                                    const cell_scale<D, R>& scale, const team& t) {
+  if (moved != rest_begin_ || moved == p.size()) {
+    rest_ = occupied_box(p, moved, p.size(), omega, scale, t);
+    rest_begin_ = moved;
+  }
+  return rest_.with(occupied_box(p, 0, moved, omega, scale, t));
 }
 
 template <int D>
@@ -103,7 +121,7 @@ void linear_cells<D>::numbers_of(const particle_set<D, R>& p, std::size_t begin,
     using Int = decltype(integer);
     for (std::size_t first = begin; first < end; first += chunk) {
       const std::size_t n = std::min(chunk, end - first);
-      std::uint32_t* const to = out.data() + first;
+      std::uint32_t* const to = out.data() + (first - begin);
       for (int d = 0; d < D; ++d) {
         const R* const x = p.x[d].data() + first;
         const auto stride = stride_[d], origin = static_cast<std::uint32_t>(origin_[d]);  // modulo 2^32
@@ -130,10 +148,9 @@ std::uint8_t linear_cells<D>::parity(std::uint32_t number) const {
   return bits;
 }
 
-#define PAIRSUM_CELL_BOX(D, R)                                                                                  \
-  template cell_box<D> occupied_box<D, R>(const particle_set<D, R>&, const box<D, R>&, const cell_scale<D, R>&, \
-                                          const team&);                                                         \
-  template void linear_cells<D>::numbers_of<R>(const particle_set<D, R>&, std::size_t, std::size_t,             \
+#define PAIRSUM_CELL_BOX(D, R)                                                                      \
+  template class box_follower<D, R>;                                                                \
+  template void linear_cells<D>::numbers_of<R>(const particle_set<D, R>&, std::size_t, std::size_t, \
                                                const cell_scale<D, R>&, std::span<std::uint32_t>) const;
 #define PAIRSUM_CELL_BOXES(D)     \
   template struct cell_box<D>;    \

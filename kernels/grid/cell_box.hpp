@@ -10,12 +10,19 @@
 
 namespace pairsum {
 
-/// A box of cells: coordinates low..high, both included; empty if low > high.
+/// A box of cells: coordinates low..high, both included; empty if high is -1.
 template <int D>
 struct cell_box {
-  ivec<D> low{}, high{};
+  ivec<D> low{}, high = [] {
+    ivec<D> none;
+    none.fill(-1);
+    return none;
+  }();
 
   bool operator==(const cell_box&) const = default;
+  bool empty() const { return high[0] < 0; }
+  /// The smallest box around both.
+  cell_box with(const cell_box& o) const;
   std::int64_t edge(int d) const { return high[d] - low[d] + 1; }
   /// Number of cells; 0 if it is empty. Exact up to 2^53.
   double cells() const;
@@ -23,11 +30,24 @@ struct cell_box {
   std::string text() const;
 };
 
-/// The smallest box around the cells of the particles that are summed: inside Omega and not lost. Without any it has
-/// edges of length 0.
+/// The smallest box around the cells of particles begin..end that are summed: inside Omega and not lost. Without any it
+/// is cell_box{}.
 template <int D, class R>
-cell_box<D> occupied_box(const particle_set<D, R>& p, const box<D, R>& omega, const cell_scale<D, R>& scale,
-                         const team& t);
+cell_box<D> occupied_box(const particle_set<D, R>& p, std::size_t begin, std::size_t end, const box<D, R>& omega,
+                         const cell_scale<D, R>& scale, const team& t);
+
+/// The box around all of them from step to step; looks again only at those that may have moved.
+template <int D, class R>
+class box_follower {
+ public:
+  /// The first `moved` particles, or all, may be others than in the last call.
+  cell_box<D> fit(const particle_set<D, R>& p, std::size_t moved, const box<D, R>& omega, const cell_scale<D, R>& scale,
+                  const team& t);
+
+ private:
+  std::size_t rest_begin_ = ~std::size_t{0};
+  cell_box<D> rest_;  ///< of the particles from rest_begin_ on
+};
 
 /// Numbers the cells of a box, x fastest, with an empty cell around: so the 3^D cells around any cell of the box have
 /// numbers of their own, and no number wraps round an edge.
@@ -46,7 +66,7 @@ class linear_cells {
   int bits() const;  ///< numbers are below 2^bits
   std::uint32_t stride(int d) const { return stride_[d]; }
 
-  /// Writes the numbers of particles begin..end, which lie in the box (else the number does not matter).
+  /// Writes the numbers of particles begin..end, which lie in the box (else the number does not matter), to out[0..].
   template <class R>
   void numbers_of(const particle_set<D, R>& p, std::size_t begin, std::size_t end, const cell_scale<D, R>& scale,
                   std::span<std::uint32_t> out) const;

@@ -19,13 +19,21 @@ void sort_unique(std::vector<Place>& places) {
   places.erase(std::unique(places.begin(), places.end()), places.end());
 }
 
-}  // namespace
+template <class Place>
+std::vector<Place> joined(const std::vector<Place>& a, const std::vector<Place>& b) {
+  std::vector<Place> both;
+  both.reserve(a.size() + b.size());
+  std::ranges::set_union(a, b, std::back_inserter(both));
+  return both;
+}
 
+/// The cells of particles first..last that are summed, ascending.
 template <int D, class R>
-bool cell_list<D, R>::fit(const particle_set<D, R>& p, const box<D, R>& omega, const cell_scale<D, R>& scale,
-                          const team& t) {
+std::vector<cell_place<D>> places_of(const particle_set<D, R>& p, std::size_t first, std::size_t last,
+                                     const box<D, R>& omega, const cell_scale<D, R>& scale, const team& t) {
   std::vector<std::vector<cell_place<D>>> found(static_cast<std::size_t>(t.threads()));
-  t.for_pieces(p.size(), [&](std::size_t begin, std::size_t end, std::size_t piece) {
+  t.for_pieces(last - first, [&](std::size_t begin, std::size_t end, std::size_t piece) {
+    begin += first, end += first;
     std::vector<cell_place<D>>& own = found[piece];
     std::size_t tidy = 1024;
     for (std::size_t i = begin; i < end; ++i) {
@@ -40,12 +48,20 @@ bool cell_list<D, R>::fit(const particle_set<D, R>& p, const box<D, R>& omega, c
     sort_unique(own);
   });
   std::vector<cell_place<D>> all = std::move(found.front());
-  for (std::size_t piece = 1; piece < found.size(); ++piece) {
-    std::vector<cell_place<D>> joined;
-    joined.reserve(all.size() + found[piece].size());
-    std::ranges::set_union(all, found[piece], std::back_inserter(joined));
-    all = std::move(joined);
+  for (std::size_t piece = 1; piece < found.size(); ++piece) all = joined(all, found[piece]);
+  return all;
+}
+
+}  // namespace
+
+template <int D, class R>
+bool cell_list<D, R>::fit(const particle_set<D, R>& p, std::size_t moved, const box<D, R>& omega,
+                          const cell_scale<D, R>& scale, const team& t) {
+  if (moved != rest_begin_ || moved == p.size()) {
+    rest_ = places_of(p, moved, p.size(), omega, scale, t);
+    rest_begin_ = moved;
   }
+  std::vector<cell_place<D>> all = joined(rest_, places_of(p, 0, moved, omega, scale, t));
   if (all == places_) return false;
   places_ = std::move(all);
   return true;
@@ -60,7 +76,7 @@ void cell_list<D, R>::ranks(const particle_set<D, R>& p, std::size_t begin, std:
     const auto is = [&](std::size_t k) { return k < places_.size() && places_[k] == at; };
     if (!is(rank) && !is(++rank))  // the cell of the particle before, or the next one
       rank = static_cast<std::size_t>(std::ranges::lower_bound(places_, at) - places_.begin());
-    out[i] = static_cast<std::uint32_t>(rank);
+    out[i - begin] = static_cast<std::uint32_t>(rank);
   }
 }
 

@@ -28,17 +28,19 @@ struct cell_place {
 template <int D, class R>
 class cell_list {
  public:
-  /// Lists the cells of the particles that are summed: inside Omega and not lost. Returns whether the list changed.
-  bool fit(const particle_set<D, R>& p, const box<D, R>& omega, const cell_scale<D, R>& scale, const team& t);
-  void clear() { places_ = {}; }
+  /// Lists the cells of the particles that are summed: inside Omega and not lost. The first `moved` particles, or all,
+  /// may be others than in the last call. Returns whether the list changed.
+  bool fit(const particle_set<D, R>& p, std::size_t moved, const box<D, R>& omega, const cell_scale<D, R>& scale,
+           const team& t);
 
   std::span<const cell_place<D>> places() const { return places_; }
-  /// Writes the ranks of particles begin..end, whose cells are listed (else the rank does not matter).
+  /// Writes the ranks of particles begin..end, whose cells are listed (else the rank does not matter), to out[0..].
   void ranks(const particle_set<D, R>& p, std::size_t begin, std::size_t end, const cell_scale<D, R>& scale,
              std::span<std::uint32_t> out) const;
 
  private:
-  std::vector<cell_place<D>> places_;
+  std::size_t rest_begin_ = ~std::size_t{0};
+  std::vector<cell_place<D>> places_, rest_;  ///< rest_: of the particles from rest_begin_ on
 };
 
 }  // namespace pairsum

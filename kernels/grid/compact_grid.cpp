@@ -13,16 +13,17 @@ compact_grid<D, R>::compact_grid(const box<D, R>& omega, R H) : omega_(omega), s
 }
 
 template <int D, class R>
-bool compact_grid<D, R>::adapt(const particle_set<D, R>& p, const team& t) {
-  const cell_box<D> now = occupied_box(p, omega_, scale_, t);
+bool compact_grid<D, R>::adapt(const particle_set<D, R>& p, std::size_t moved, const team& t) {
+  const cell_box<D> now = follower_.fit(p, moved, omega_, scale_, t);
   const bool listed = linear_cells<D>::numbers(now) > static_cast<double>(linear_cells<D>::most);
   bool changed = std::exchange(first_, false) || listed != listed_;
   listed_ = listed;
   if (listed) {
-    changed |= list_.fit(p, omega_, scale_, t);
+    if (changed) list_ = {};
+    changed |= list_.fit(p, moved, omega_, scale_, t);
   } else if (changed || now != box_) {
     changed = true;
-    list_.clear();
+    list_ = {};
     linear_ = linear_cells<D>(now);
   }
   box_ = now;

@@ -22,7 +22,7 @@ class compact_grid final : public grid<D, R> {
   /// omega: where particles may be (m). H: support radius (m). Refuses an Omega so large that R does not resolve H.
   compact_grid(const box<D, R>& omega, R H);
 
-  bool adapt(const particle_set<D, R>& p, const team& t) override;
+  bool adapt(const particle_set<D, R>& p, std::size_t moved, const team& t) override;
   /// The cells that hold particles.
   std::size_t total_cells() const override { return total_; }
   int key_bits() const override;
@@ -38,7 +38,8 @@ class compact_grid final : public grid<D, R> {
 
   box<D, R> omega_;
   cell_scale<D, R> scale_;
-  cell_box<D> box_{};
+  box_follower<D, R> follower_;
+  cell_box<D> box_;
   linear_cells<D> linear_;
   cell_list<D, R> list_;                ///< used if the box is too large
   bool first_ = true, listed_ = false;  ///< listed: keys are ranks

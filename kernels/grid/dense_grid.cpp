@@ -14,8 +14,8 @@ dense_grid<D, R>::dense_grid(const box<D, R>& omega, R H) : omega_(omega), scale
 }
 
 template <int D, class R>
-bool dense_grid<D, R>::adapt(const particle_set<D, R>& p, const team& t) {
-  const cell_box<D> now = occupied_box(p, omega_, scale_, t);
+bool dense_grid<D, R>::adapt(const particle_set<D, R>& p, std::size_t moved, const team& t) {
+  const cell_box<D> now = follower_.fit(p, moved, omega_, scale_, t);
   if (table_.size() > 0 && now == box_) return false;
   const double wanted = linear_cells<D>::numbers(now);
   if (wanted > static_cast<double>(linear_cells<D>::most))

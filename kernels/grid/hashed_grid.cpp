@@ -28,7 +28,7 @@ void hashed_grid<D, R>::keys(const particle_set<D, R>& p, std::size_t begin, std
       std::uint32_t key = 0;
       for (int d = 0; d < D; ++d)
         key |= (static_cast<std::uint32_t>(scale.template cell<decltype(integer)>(d, x[d][i])) & mask) << (d * M);
-      to[i] = key;
+      to[i - begin] = key;
     }
   });
 }

@@ -17,6 +17,7 @@ void state<D, R>::load(const particle_table& p, const std::vector<std::uint32_t>
   check(p);
   check_order(order, p.size());
   fill(particles_, p, order, t);
+  index_.forget();
   rows_ = p.size();
   lost_ = 0;
 }
