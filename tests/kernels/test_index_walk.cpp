@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <span>
 
 #include "any_world.hpp"
 #include "grid/indexer.hpp"
@@ -77,10 +78,12 @@ void expect_same_cells(const cells<D>& a, const cells<D>& b) {
   ASSERT_EQ(a.fluid_cells, b.fluid_cells);
   EXPECT_EQ(a.total, b.total);
   EXPECT_TRUE(std::ranges::equal(a.range, b.range, same_range));
-  for (std::size_t c = 1; c <= a.fluid_cells; ++c) {
-    ASSERT_EQ(a.colour[c], b.colour[c]);
-    for (unsigned n = 0; n < cells<D>::stencil; ++n) ASSERT_EQ(a.neighbour(c, n), b.neighbour(c, n));
-  }
+  const auto from_first = [&](const auto& all, std::size_t each) {  // what belongs to cell 0 is not set
+    return std::span(all.data() + each, a.fluid_cells * each);
+  };
+  EXPECT_TRUE(std::ranges::equal(from_first(a.colour, 1), from_first(b.colour, 1)));
+  EXPECT_TRUE(
+      std::ranges::equal(from_first(a.neighbours, cells<D>::stencil), from_first(b.neighbours, cells<D>::stencil)));
 }
 
 /// One walk with one team. `share` of the fluid particles moves in a step, some far; some leave Omega at last.
@@ -129,8 +132,8 @@ TEST_P(index_walk_test, is_a_stable_sort_of_everything_for_every_team) {
     for (const auto& [kind, threads] :
          {std::pair{runtime::serial, 1}, {runtime::omp, 2}, {runtime::omp, 3}, {runtime::tbb, 3}}) {
       workers team(kind, threads);
-      for (const double share : {0.0, 0.01, 0.1, 0.6})
-        walk_with<D, R>(w, team.get(), D == 1 ? 100 : D == 2 ? 20 : 8, share, 1500);
+      for (const double share : {0.0, 0.02, 0.1, 0.6})
+        walk_with<D, R>(w, team.get(), D == 1 ? 60 : D == 2 ? 12 : 6, share, 500);
     }
   });
 }
