@@ -9,35 +9,48 @@ namespace {
 
 constexpr std::size_t chunk = 1024;  // of particles, whose flags stay in the first cache
 
-/// The box of particles begin..end with coordinates of type Int.
-template <class Int, int D, class R>
+/// Smallest and largest of n numbers, none of them NaN; or low > high if one is.
+template <class R>
+std::array<R, 2> extent(const R* x, std::size_t n) {
+  R low = std::numeric_limits<R>::infinity(), high = -low;
+  unsigned numbers = 1;
+#pragma omp simd reduction(min : low) reduction(max : high) reduction(& : numbers)
+  for (std::size_t k = 0; k < n; ++k) {
+    low = x[k] < low ? x[k] : low;
+    high = x[k] > high ? x[k] : high;
+    numbers &= unsigned(x[k] == x[k]);
+  }
+  return numbers ? std::array{low, high} : std::array{R(1), R(-1)};
+}
+
+/// The box of particles begin..end. Cell coordinates ascend with positions, so of a chunk that is all inside Omega its
+/// extent says enough.
+template <int D, class R>
 cell_box<D> box_of(const particle_set<D, R>& p, std::size_t begin, std::size_t end, const box<D, R>& omega,
                    const cell_scale<D, R>& scale) {
-  std::array<Int, D> low, high;
-  low.fill(std::numeric_limits<Int>::max());
-  high.fill(-1);
-  std::array<Int, chunk> summed;
-  for (; begin < end; begin += chunk) {
-    const std::size_t n = std::min(chunk, end - begin);
-    for (std::size_t k = 0; k < n; ++k) summed[k] = p.kind[begin + k] != particle_kind::lost;
+  cell_box<D> found;
+  const auto take = [&](const vec<D, R>& low, const vec<D, R>& high) {
+    cell_box<D> b;
     for (int d = 0; d < D; ++d) {
-      const R* const x = p.x[d].data() + begin;
-      for (std::size_t k = 0; k < n; ++k) summed[k] &= Int(x[k] >= omega.low[d]) & Int(x[k] <= omega.high[d]);
+      b.low[d] = scale.template cell<std::int64_t>(d, low[d]);
+      b.high[d] = scale.template cell<std::int64_t>(d, high[d]);
     }
-    for (int d = 0; d < D; ++d) {
-      const R* const x = p.x[d].data() + begin;
-      Int a = low[d], b = high[d];
-      for (std::size_t k = 0; k < n; ++k) {
-        const Int c = scale.template cell<Int>(d, x[k]);
-        a = std::min(a, summed[k] ? c : std::numeric_limits<Int>::max());
-        b = std::max(b, summed[k] ? c : Int(-1));
-      }
+    found = found.with(b);
+  };
+  for (; begin < end; begin += chunk) {
+    const std::size_t stop = std::min(begin + chunk, end);
+    const auto is_lost = [](particle_kind k) { return k == particle_kind::lost; };
+    bool all = std::none_of(p.kind.data() + begin, p.kind.data() + stop, is_lost);
+    vec<D, R> low, high;
+    for (int d = 0; d < D && all; ++d) {
+      const auto [a, b] = extent(p.x[d].data() + begin, stop - begin);
+      all = a >= omega.low[d] && b <= omega.high[d] && a <= b;
       low[d] = a, high[d] = b;
     }
+    if (all) take(low, high);
+    for (std::size_t i = begin; i < stop && !all; ++i)
+      if (!is_lost(p.kind[i]) && omega.contains(p.position(i))) take(p.position(i), p.position(i));
   }
-  cell_box<D> found;
-  if (high[0] >= 0)
-    for (int d = 0; d < D; ++d) found.low[d] = low[d], found.high[d] = high[d];
   return found;
 }
 
@@ -74,8 +87,7 @@ cell_box<D> occupied_box(const particle_set<D, R>& p, std::size_t begin, std::si
                          const cell_scale<D, R>& scale, const team& t) {
   std::vector<cell_box<D>> parts(static_cast<std::size_t>(t.threads()));
   t.for_pieces(end - begin, [&](std::size_t b, std::size_t e, std::size_t piece) {
-    parts[piece] =
-        scale.with_integer([&](auto i) { return box_of<decltype(i)>(p, begin + b, begin + e, omega, scale); });
+    parts[piece] = box_of(p, begin + b, begin + e, omega, scale);
   });
   cell_box<D> all;
   for (const cell_box<D>& b : parts) all = all.with(b);
@@ -117,22 +129,16 @@ template <int D>
 template <class R>
 void linear_cells<D>::numbers_of(const particle_set<D, R>& p, std::size_t begin, std::size_t end,
                                  const cell_scale<D, R>& scale, std::span<std::uint32_t> out) const {
-  scale.with_integer([&](auto integer) {
-    using Int = decltype(integer);
-    for (std::size_t first = begin; first < end; first += chunk) {
-      const std::size_t n = std::min(chunk, end - first);
-      std::uint32_t* const to = out.data() + (first - begin);
-      for (int d = 0; d < D; ++d) {
-        const R* const x = p.x[d].data() + first;
-        const auto stride = stride_[d], origin = static_cast<std::uint32_t>(origin_[d]);  // modulo 2^32
-        const auto part = [&](R a) {
-          return (static_cast<std::uint32_t>(scale.template cell<Int>(d, a)) - origin) * stride;
-        };
-        if (d == 0)
-          for (std::size_t k = 0; k < n; ++k) to[k] = part(x[k]);
-        else
-          for (std::size_t k = 0; k < n; ++k) to[k] += part(x[k]);
-      }
+  scale.with_integer([&, to = out.data(), stride = stride_, scale = scale](auto integer) {
+    std::array<const R*, D> x;
+    for (int d = 0; d < D; ++d) x[d] = p.x[d].data();
+    std::uint32_t first = 0;  // number of cell (0, 0, 0), all modulo 2^32
+    for (int d = 0; d < D; ++d) first -= static_cast<std::uint32_t>(origin_[d]) * stride_[d];
+    for (std::size_t i = begin; i < end; ++i) {
+      std::uint32_t number = first;
+      for (int d = 0; d < D; ++d)
+        number += static_cast<std::uint32_t>(scale.template cell<decltype(integer)>(d, x[d][i])) * stride[d];
+      to[i - begin] = number;
     }
   });
 }

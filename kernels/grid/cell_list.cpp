@@ -1,7 +1,10 @@
 #include "grid/cell_list.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
+
+#include "core/error.hpp"
 
 namespace pairsum {
 namespace {
@@ -62,6 +65,8 @@ bool cell_list<D, R>::fit(const particle_set<D, R>& p, std::size_t moved, const 
     rest_begin_ = moved;
   }
   std::vector<cell_place<D>> all = joined(rest_, places_of(p, 0, moved, omega, scale, t));
+  if (all.size() >= std::size_t{1} << 30)
+    throw error("compact_grid holds fewer than 2^30 cells with particles, not " + std::to_string(all.size()));
   if (all == places_) return false;
   places_ = std::move(all);
   return true;

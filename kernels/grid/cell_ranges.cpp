@@ -5,24 +5,26 @@
 namespace pairsum {
 namespace {
 
-/// Indices in [begin, end) at which a new key starts.
-std::vector<std::uint32_t> starts(std::span<const std::uint32_t> keys, std::size_t begin, std::size_t end,
-                                  const team& t) {
+/// Writes the indices in [begin, end) at which a new key starts.
+void find_starts(std::span<const std::uint32_t> keys, std::size_t begin, std::size_t end, column<std::uint32_t>& result,
+                 const team& t) {
   const auto is_start = [&](std::size_t k) { return k == begin || keys[k - 1] != keys[k]; };
   std::vector<std::size_t> offset(static_cast<std::size_t>(t.threads()) + 1, 0);
   t.for_pieces(end - begin, [&](std::size_t b, std::size_t e, std::size_t piece) {
-    std::size_t n = 0;
-    for (std::size_t k = begin + b; k < begin + e; ++k) n += is_start(k);
+    if (b == e) return;
+    std::size_t n = is_start(begin + b);
+    for (std::size_t k = begin + b + 1; k < begin + e; ++k) n += keys[k - 1] != keys[k];
     offset[piece + 1] = n;
   });
   for (std::size_t piece = 1; piece < offset.size(); ++piece) offset[piece] += offset[piece - 1];
-  std::vector<std::uint32_t> result(offset.back());
+  result.resize(offset.back());
   t.for_pieces(end - begin, [&](std::size_t b, std::size_t e, std::size_t piece) {
     std::size_t n = offset[piece];
-    for (std::size_t k = begin + b; k < begin + e; ++k)
-      if (is_start(k)) result[n++] = static_cast<std::uint32_t>(k);
+    for (std::size_t k = begin + b; n < offset[piece + 1] && k < begin + e; ++k) {
+      result[n] = static_cast<std::uint32_t>(k);  // without a branch; the next start overwrites what is none
+      n += is_start(k);
+    }
   });
-  return result;
 }
 
 }  // namespace
@@ -30,7 +32,7 @@ std::vector<std::uint32_t> starts(std::span<const std::uint32_t> keys, std::size
 template <int D>
 void cell_ranges<D>::find_cells(std::span<const std::uint32_t> keys, std::size_t fluid, std::size_t boundary,
                                 std::uint32_t cell_mask, const team& t) {
-  auto end_of = [](const std::vector<std::uint32_t>& s, std::size_t k, std::size_t end) {
+  auto end_of = [](const column<std::uint32_t>& s, std::size_t k, std::size_t end) {
     return k + 1 < s.size() ? s[k + 1] : static_cast<std::uint32_t>(end);
   };
   const std::size_t n = fluid_starts_.size();
@@ -63,8 +65,8 @@ template <int D>
 template <class R>
 void cell_ranges<D>::make(std::span<const std::uint32_t> keys, std::size_t fluid, std::size_t boundary,
                           bool boundary_kept, bool renumbered, grid<D, R>& g, const team& t) {
-  fluid_starts_ = starts(keys, 0, fluid, t);
-  if (!boundary_kept) boundary_starts_ = starts(keys, fluid, fluid + boundary, t);
+  find_starts(keys, 0, fluid, fluid_starts_, t);
+  if (!boundary_kept) find_starts(keys, fluid, fluid + boundary, boundary_starts_, t);
   std::swap(cell_keys_, last_keys_);
   find_cells(keys, fluid, boundary, (std::uint32_t{1} << g.key_bits()) - 1, t);
   if (!renumbered && last_fluid_cells_ == cells_.fluid_cells && cell_keys_ == last_keys_) return;

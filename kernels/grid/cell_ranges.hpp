@@ -27,7 +27,7 @@ class cell_ranges {
                   const team& t);
 
   cells<D> cells_;
-  std::vector<std::uint32_t> fluid_starts_, boundary_starts_;
+  column<std::uint32_t> fluid_starts_, boundary_starts_;
   std::vector<std::uint32_t> cell_keys_, last_keys_;  ///< cell keys; entry 0 belongs to the empty cell
   std::size_t last_fluid_cells_ = 0;
 };
