@@ -27,7 +27,7 @@ struct cells {
   column<std::uint32_t> neighbours;  ///< cell of the neighbour at code n of fluid cell c: [c * 3^D + n]
   column<std::uint8_t> colour;       ///< parity of the fluid cell's coordinates, one bit per component
   std::size_t fluid_cells = 0;
-  std::size_t total = 0;  ///< cells of the grid, empty ones included
+  std::size_t total = 0;  ///< cells of the grid, empty ones included where it has them
 
   std::size_t nonempty() const { return range.size() - 1; }
   const std::uint32_t* neighbours_of(std::size_t c) const { return neighbours.data() + c * stencil; }
