@@ -14,6 +14,9 @@ namespace pairsum {
 /// Names of the grids, in the order they are listed.
 std::vector<std::string_view> grid_names();
 
+/// Does the grid of that name take an M? (Stand-in.)
+inline bool grid_takes_M(std::string_view grid) { return grid == hashed_grid<3, double>::name; }
+
 /// The grid that `s` names; an error lists the valid names or says what is wrong with M or H.
 template <int D, class R>
 std::unique_ptr<grid<D, R>> make_grid(const setup& s);
