@@ -122,7 +122,7 @@ class search {
   void halve(int round) {
     if (round > 1 && (round - 1) % rules_.least_rounds == 0) keep_faster_half(rules_.fewest);
     const int wanted = rules_.least_rounds - round + 1;
-    while (standing().size() > 1 && wanted * cost_of_round() > world_.left_s()) keep_faster_half(1);
+    while (standing().size() > 2 && wanted * cost_of_round() > world_.left_s()) keep_faster_half(2);  // two: a ratio
   }
 
   void keep_faster_half(std::size_t at_least) {
