@@ -20,6 +20,9 @@ set(PAIRSUM_ALL_SMOOTHED_INTERACTIONS  # those that take a smoothing kernel
 set(PAIRSUM_ALL_PLAIN_INTERACTIONS  # those that use none
   count
 )
+set(PAIRSUM_SCALAR_INTERACTIONS  # of either, those whose particles or rates are not all of the working precision
+  count
+)
 set(PAIRSUM_ALL_SMOOTHINGS
   wendland_c2
   wendland_c4

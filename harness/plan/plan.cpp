@@ -13,6 +13,7 @@
 #include "core/random.hpp"
 #include "harness/plan/variants.hpp"
 #include "integrators/integrator.hpp"
+#include "sum/block_shape.hpp"
 #include "sum/grids.hpp"
 #include "sum/registry.hpp"
 

@@ -48,20 +48,6 @@ bool is_built(const std::string& backend, int dim, const point& world, const reg
 
 }  // namespace
 
-void check_block(const std::string& word) {
-  if (word == "auto") return;
-  const std::size_t colon = word.find(':');
-  const std::string shape = word.substr(0, colon);
-  const std::vector<std::string> shapes{"slab", "pencil", "brick"};
-  int cells = 0;
-  if (colon != word.npos && std::ranges::find(shapes, shape) != shapes.end()) {
-    const char* const end = word.data() + word.size();
-    const auto [stop, failed] = std::from_chars(word.data() + colon + 1, end, cells);
-    if (failed == std::errc{} && stop == end && cells >= 1) return;
-  }
-  throw error(fmt::format("unknown block \"{}\"; valid: auto, slab:N, pencil:N, brick:N, N cells wide", word));
-}
-
 std::vector<cell_grid> grids_of(const run_request& r) {
   std::vector<cell_grid> all;
   for (const std::string& grid : r.grids)

@@ -6,9 +6,6 @@
 
 namespace pairsum::harness {
 
-/// Throws pairsum::error unless the word is auto, or slab, pencil or brick with a number of cells: slab:4.
-void check_block(const std::string& word);
-
 /// A grid with its M; 0 for a grid that takes none.
 struct cell_grid {
   std::string name;

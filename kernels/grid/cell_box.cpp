@@ -144,14 +144,13 @@ void linear_cells<D>::numbers_of(const particle_set<D, R>& p, std::size_t begin,
 }
 
 template <int D>
-std::uint8_t linear_cells<D>::parity(std::uint32_t number) const {
-  std::uint8_t bits = 0;
+ivec<D> linear_cells<D>::place(std::uint32_t number) const {
+  ivec<D> at;
   for (int d = D - 1; d >= 0; --d) {
-    const std::int64_t c = origin_[d] + number / stride_[d];
+    at[d] = origin_[d] + number / stride_[d];
     number %= stride_[d];
-    bits = static_cast<std::uint8_t>(bits | (c & 1) << d);
   }
-  return bits;
+  return at;
 }
 
 #define PAIRSUM_CELL_BOX(D, R)                                                                      \

@@ -70,8 +70,8 @@ class linear_cells {
   template <class R>
   void numbers_of(const particle_set<D, R>& p, std::size_t begin, std::size_t end, const cell_scale<D, R>& scale,
                   std::span<std::uint32_t> out) const;
-  /// Parity of the coordinates of a cell of the box, one bit per component.
-  std::uint8_t parity(std::uint32_t number) const;
+  /// Coordinates of a cell of the box.
+  ivec<D> place(std::uint32_t number) const;
 
  private:
   std::array<std::uint32_t, D> stride_{};

@@ -44,8 +44,7 @@ void compact_grid<D, R>::keys(const particle_set<D, R>& p, std::size_t begin, st
 template <int D, class R>
 void compact_grid<D, R>::connect(std::span<const std::uint32_t> cell_keys, cells<D>& c, const team& t) {
   total_ = cell_keys.size() - 1;
-  c.neighbours.resize((c.fluid_cells + 1) * cells<D>::stencil);
-  c.colour.resize(c.fluid_cells + 1);
+  c.resize_fluid();
   // Cells with fluid and cells with boundary alone ascend each: one ascending list of both.
   keys_.resize(total_);
   number_.resize(total_);
@@ -66,7 +65,7 @@ void compact_grid<D, R>::connect_numbers(std::span<const std::uint32_t> cell_key
     for (unsigned d = 1, code = row; d < D; ++d, code /= 3)
       step[row] += (code % 3 - 1) * linear_.stride(static_cast<int>(d));
   t.for_pieces(c.fluid_cells, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t cell = begin + 1; cell <= end; ++cell) c.colour[cell] = linear_.parity(cell_keys[cell]);
+    for (std::size_t cell = begin + 1; cell <= end; ++cell) c.set_place(cell, linear_.place(cell_keys[cell]));
   });
   connect_sorted<D, std::uint32_t>(
       keys_, number_, c, t, [&](std::size_t cell) { return cell_keys[cell]; },
@@ -78,11 +77,7 @@ void compact_grid<D, R>::connect_list(std::span<const std::uint32_t> cell_keys, 
   const auto places = list_.places();  // every one holds particles: place k belongs to key k
   const auto at = [&](std::size_t cell) { return places[cell_keys[cell]]; };
   t.for_pieces(c.fluid_cells, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t cell = begin + 1; cell <= end; ++cell) {
-      std::uint8_t parity = 0;
-      for (int d = 0; d < D; ++d) parity = static_cast<std::uint8_t>(parity | (at(cell).c[d] & 1) << d);
-      c.colour[cell] = parity;
-    }
+    for (std::size_t cell = begin + 1; cell <= end; ++cell) c.set_place(cell, at(cell).c);
   });
   connect_sorted<D, cell_place<D>>(places, number_, c, t, at, [](cell_place<D> place, int dx, unsigned row) {
     place.c[0] += dx;

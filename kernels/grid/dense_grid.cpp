@@ -36,8 +36,7 @@ template <int D, class R>
 void dense_grid<D, R>::connect(std::span<const std::uint32_t> cell_keys, cells<D>& c, const team& t) {
   table_.set(cell_keys, t);
   constexpr unsigned stencil = cells<D>::stencil;
-  c.neighbours.resize((c.fluid_cells + 1) * stencil);
-  c.colour.resize(c.fluid_cells + 1);
+  c.resize_fluid();
   std::array<std::uint32_t, stencil> step{};  // from a cell's number to that of its neighbour, modulo 2^32
   for (unsigned n = 0; n < stencil; ++n)
     for (unsigned d = 0, code = n; d < D; ++d, code /= 3)
@@ -45,7 +44,7 @@ void dense_grid<D, R>::connect(std::span<const std::uint32_t> cell_keys, cells<D
   const std::uint32_t* const table = table_.data();
   t.for_pieces(c.fluid_cells, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t cell = begin + 1; cell <= end; ++cell) {
-      c.colour[cell] = linear_.parity(cell_keys[cell]);
+      c.set_place(cell, linear_.place(cell_keys[cell]));
       for (unsigned n = 0; n < stencil; ++n) c.neighbours[cell * stencil + n] = table[cell_keys[cell] + step[n]];
     }
   });

@@ -37,21 +37,21 @@ template <int D, class R>
 void hashed_grid<D, R>::connect(std::span<const std::uint32_t> cell_keys, cells<D>& c, const team& t) {
   table_.set(cell_keys, t);
   constexpr unsigned stencil = cells<D>::stencil;
-  c.neighbours.resize((c.fluid_cells + 1) * stencil);
-  c.colour.resize(c.fluid_cells + 1);
+  c.resize_fluid();
+  c.period = std::int64_t{1} << M_;
   const std::uint32_t* const table = table_.data();
   const std::uint32_t mask = (std::uint32_t{1} << M_) - 1;
   t.for_pieces(c.fluid_cells, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t cell = begin + 1; cell <= end; ++cell) {
       // Per component the folded coordinates of the left, own and right cell, already shifted into place.
       std::array<std::array<std::uint32_t, 3>, D> part;
-      std::uint8_t parity = 0;
+      ivec<D> place;
       for (int d = 0; d < D; ++d) {
         const std::uint32_t own = cell_keys[cell] >> (d * M_) & mask;
-        parity = static_cast<std::uint8_t>(parity | (own & 1u) << d);
+        place[d] = own;
         for (std::uint32_t o = 0; o < 3; ++o) part[d][o] = ((own + o - 1) & mask) << (d * M_);
       }
-      c.colour[cell] = parity;
+      c.set_place(cell, place);
       for (unsigned n = 0; n < stencil; ++n) {
         std::uint32_t key = 0;
         for (unsigned d = 0, code = n; d < D; ++d, code /= 3) key |= part[d][code % 3];

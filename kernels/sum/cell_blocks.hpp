@@ -1,31 +1,12 @@
 #pragma once
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "core/team.hpp"
 #include "grid/cells.hpp"
+#include "sum/block_shape.hpp"
 
 namespace pairsum {
-
-/// How a grid is cut into blocks of cells: along one, two or three of its axes, the slowest first, every `width` cells.
-struct block_shape {
-  int axes = 3;
-  int width = 2;
-  bool operator==(const block_shape&) const = default;
-
-  /// slab:N (one axis), pencil:N (two) or brick:N (three), N from 2 to 4096 cells wide; axes that the dimension lacks
-  /// do not count. Throws pairsum::error.
-  static block_shape parse(const std::string& word);
-  /// The widest bricks whose cells, with those around them, take half the cache.
-  /// @param cache_bytes    of a core; 0: 1 MiB
-  /// @param bytes_per_cell what a sum touches of a cell
-  static block_shape fitting(int dim, std::size_t cache_bytes, std::size_t bytes_per_cell);
-};
-
-/// Throws pairsum::error unless the word is `auto` or a shape.
-void check_block(const std::string& word);
 
 /// The cells with fluid, in blocks of 2^axes colours: the parities of a block's number along the cut axes. One thread
 /// sums a block with a half stencil, cell by cell in the order of the grid. It touches its own cells and one more on

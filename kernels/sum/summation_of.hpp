@@ -51,7 +51,7 @@ class summation_of final : public interaction_state<I> {
   void prepare(const team& t) override {
     no_probe unobserved;
     bool with_fluid = true;
-    if constexpr (requires { workspace::derives_fluid; }) with_fluid = !workspace::derives_fluid;
+    if constexpr (requires { workspace_.derives_fluid(); }) with_fluid = !workspace_.derives_fluid();
     workspace_.prepare(base::derive(t, with_fluid), t, unobserved);
   }
   void zero(const team& t) override {

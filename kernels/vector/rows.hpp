@@ -43,7 +43,7 @@ HWY_INLINE void add(D d, hn::Vec<D> v, R* to, std::size_t stride, const std::uin
 
 /// The sum of v's pieces.
 template <class R, class D>
-HWY_INLINE auto sum_of_pieces(D d, hn::Vec<D> v) {
+HWY_INLINE auto sum_of_pieces([[maybe_unused]] D d, hn::Vec<D> v) {
   if constexpr (hn::MaxLanes(D()) == piece<R>) {
     return v;
   } else {

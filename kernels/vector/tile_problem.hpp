@@ -1,4 +1,8 @@
 #pragma once
+#include <string_view>
+#include <vector>
+
+#include "core/isa.hpp"
 #include "sum/problem.hpp"
 
 namespace pairsum {
@@ -52,5 +56,27 @@ struct tile_kernels {
   std::string_view isa;
   tile_function<I> symmetric, gather;
 };
+
+/// The kernels for interaction I that this machine runs, best first. The library's own interactions have them for every
+/// set of isa_names(), compiled apart; one that a user brings has those of the flags its source is compiled with.
+template <class I>
+std::vector<tile_kernels<I>> vector_kernels();
+
+/// An instruction set and what makes its kernels.
+template <class I>
+struct kernel_maker {
+  std::string_view isa;
+  tile_kernels<I> (*make)();
+};
+
+/// The kernels of those sets that this machine runs, best first.
+template <class I>
+std::vector<tile_kernels<I>> kernels_that_run(const std::vector<kernel_maker<I>>& built) {
+  std::vector<tile_kernels<I>> all;
+  for (const std::string_view isa : isa_names())
+    for (const kernel_maker<I>& k : built)
+      if (k.isa == isa) all.push_back(k.make());
+  return all;
+}
 
 }  // namespace pairsum

@@ -12,7 +12,8 @@
 namespace pairsum {
 
 /// What tile backends keep from step to step: the fluid as rows, the blocks, and the kernel of the instruction set.
-/// Interactions that lanes do not carry (whole numbers) are summed one pair at a time, in the same order of cells.
+/// Pairs that lanes do not carry (of whole numbers, or where nothing is compiled for vector units) are summed one at a
+/// time, in the same order of cells.
 template <class I, bool symmetric>
 class tile_workspace {
   using real = typename I::real;
@@ -21,29 +22,28 @@ class tile_workspace {
 
  public:
   /// Does this workspace derive what fluid particles bring to a pair?
-  static constexpr bool derives_fluid = takes_lanes<I>;
+  bool derives_fluid() const { return kernel_ != nullptr; }
 
   /// Throws pairsum::error for an isa or a block that is not to be had.
   void configure(const setup& s) {
     check_block(s.block);
     blocks_.shape(s.block == "auto" ? block_shape::fitting(s.dim, s.cache_bytes, bytes_per_cell(s.dim))
                                     : block_shape::parse(s.block));
+    check_isa(s.isa);
     if constexpr (takes_lanes<I>) {
-      if (s.isa != best_isa) check_isa(s.isa);
-      for (const tile_kernels<I>& k : vector_kernels<I>())
+      const auto kernels = vector_kernels<I>();
+      for (const tile_kernels<I>& k : kernels)
         if (!kernel_ && (s.isa == best_isa || k.isa == s.isa)) kernel_ = symmetric ? k.symmetric : k.gather;
-      if (!kernel_)
+      if (!kernel_ && !kernels.empty())
         throw error("interaction " + std::string(I::name) + " was not compiled for isa " + s.isa +
-                    "; one of one's own is compiled for one set, by the flags of its source");
-    } else {
-      check_isa(s.isa);
+                    "; one of one's own is compiled for one set, by the flags of its source: take isa best");
     }
   }
 
   template <class Probe>
   void prepare(const problem<I>& p, const team& t, Probe&) {
     blocks_.build(p.cells());
-    if constexpr (takes_lanes<I>) {
+    if (kernel_) {
       const std::size_t spare = spare_rows * static_cast<std::size_t>(t.threads());
       rows_.resize((p.fluid_count + spare) * tiles::stride);
       t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -57,7 +57,7 @@ class tile_workspace {
   void zero(const problem<I>& p, const team& t) {
     t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) {
-        if constexpr (symmetric && takes_lanes<I>)
+        if (symmetric && kernel_)
           std::fill_n(rows_.data() + i * tiles::stride + tiles::rates_at, tiles::rates, real(0));
         else
           p.u.store(i, pairsum::zero<rates_of<I>>());
@@ -69,7 +69,7 @@ class tile_workspace {
   template <class Probe>
   void sum_block(const problem<I>& p, unsigned colour, std::size_t block, int thread, Probe& probe) {
     const auto cell = blocks_(colour, block);
-    if constexpr (takes_lanes<I>) {
+    if (kernel_) {
       const tiles view{&p, rows_.data()};
       kernel_(view, cell.data(), cell.size(),
               static_cast<std::uint32_t>(p.fluid_count + spare_rows * static_cast<std::size_t>(thread)));
@@ -80,7 +80,7 @@ class tile_workspace {
 
   /// Brings the rates of rows to the columns.
   void reduce(const problem<I>& p, const team& t) {
-    if constexpr (symmetric && takes_lanes<I>)
+    if (symmetric && kernel_)
       t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
           for (std::size_t s = 0; s < tiles::rates; ++s)

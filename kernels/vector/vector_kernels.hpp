@@ -1,8 +1,16 @@
 #pragma once
+#include <hwy/highway.h>
+
 #include <string_view>
 #include <vector>
 
+#include "vector/tile_problem.hpp"
+
+/// Are there lanes in what this is compiled for? Highway needs SSE4 or NEON.
+#define PAIRSUM_LANES (HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128)
+#if PAIRSUM_LANES
 #include "vector/tile_kernel.hpp"
+#endif
 
 namespace pairsum {
 
@@ -17,22 +25,26 @@ constexpr std::string_view compiled_vector_isa() {
 #elif HWY_TARGET == HWY_NEON
   return "neon";
 #else
-  return "generic";
+  return "none";
 #endif
 }
 
+#if PAIRSUM_LANES
 /// The kernels of the instruction set this is compiled for.
 template <class I>
 tile_kernels<I> compiled_kernels() {
   using kernel = tile_kernel<I, lane_vector<typename I::real>>;
   return {compiled_vector_isa(), &kernel::template sum<true>, &kernel::template sum<false>};
 }
+#endif
 
-/// The kernels for interaction I that this machine runs, best first. The library's own interactions have them for every
-/// set of isa_names(), compiled apart; one that a user brings has those of the flags it is compiled with.
 template <class I>
 std::vector<tile_kernels<I>> vector_kernels() {
+#if PAIRSUM_LANES
   return {compiled_kernels<I>()};
+#else
+  return {};
+#endif
 }
 
 }  // namespace pairsum

@@ -19,7 +19,8 @@ ALLOWED = {  # folder: folders it may include, besides itself
     "cases": ["core", "particles", "eos"],
     "grid": ["core", "pattern", "particles"],
     "sum": ["core", "pattern", "particles", "eos", "smoothing", "interactions", "grid", "cases"],
-    "backends": ["core", "pattern", "particles", "grid", "interactions", "sum"],
+    "vector": ["core", "pattern", "particles", "grid", "interactions", "sum"],
+    "backends": ["core", "pattern", "particles", "grid", "interactions", "sum", "vector"],
     "integrators": ["core", "particles", "sum"],
     "harness/rows": ["core"],
     "harness/stats": ["core"],
@@ -39,7 +40,7 @@ ALLOWED = {  # folder: folders it may include, besides itself
 }
 NO_BACKEND_INCLUDES_ANOTHER = "backends"
 DOOR = {"sum/registry.hpp", "sum/setup.hpp", "sum/summation.hpp", "sum/reference.hpp", "sum/setup_of.hpp", "sum/rate_table.hpp", "sum/grids.hpp",
-        "sum/check.hpp", "sum/probe.hpp", "sum/backend.hpp", "sum/costs.hpp", "sum/profile.hpp"}
+        "sum/check.hpp", "sum/block_shape.hpp", "sum/probe.hpp", "sum/backend.hpp", "sum/costs.hpp", "sum/profile.hpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 FORBIDDEN_IN_LIBRARY = re.compile(r"#\s*include\s+<(chrono|iostream|fstream|cstdio|filesystem)>|\bgetenv\b|\bprintf\s*\(")
 
