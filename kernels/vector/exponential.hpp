@@ -1,6 +1,6 @@
 #pragma once
-#include <hwy/highway.h>
-// Its include guard is meant for sources that are compiled for several sets at once.
+#include "vector/highway.hpp"
+// After it; its include guard is meant for sources that are compiled for several sets at once.
 #include <hwy/contrib/math/math-inl.h>
 
 namespace pairsum {

@@ -1,11 +1,10 @@
 #pragma once
-#include <hwy/highway.h>
-// Eigen after Highway
 #include <Eigen/Core>
 #include <type_traits>
 
 #include "core/value.hpp"
 #include "vector/exponential.hpp"
+#include "vector/highway.hpp"
 
 /// A vector of lanes as a value type for formulas: + - * / and the operations of core/value.hpp, found by
 /// argument-dependent lookup. V is one of Highway's vectors, whose namespace names the instruction set; so what is

@@ -1,9 +1,8 @@
 #pragma once
-#include <hwy/highway.h>
-
 #include <string_view>
 #include <vector>
 
+#include "vector/highway.hpp"
 #include "vector/tile_problem.hpp"
 
 /// Are there lanes in what this is compiled for? Highway needs SSE4 or NEON.
