@@ -113,8 +113,11 @@ class alignas(4096) nearby {
   }
   template <class T, class R>
   static HWY_INLINE hn::Vec<T> values(T d, const R* x, std::size_t j, std::size_t total) {
-    if (j + hn::MaxLanes(T()) <= total) return hn::LoadU(d, x + j);
-    return j < total ? hn::MaskedLoad(hn::FirstN(d, total - j), d, x + j) : hn::Zero(d);
+    constexpr std::size_t n = hn::MaxLanes(T());
+    if (j + n <= total) return hn::LoadU(d, x + j);
+    HWY_ALIGN R last[n] = {};  // a masked load may read behind the end
+    for (std::size_t l = 0; j + l < total; ++l) last[l] = x[j + l];
+    return hn::Load(d, last);
   }
 
   // The columns of a cell with its neighbours (some 100 candidates) lie at different places of a page: a load whose
