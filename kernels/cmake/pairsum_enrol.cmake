@@ -143,7 +143,7 @@ function(pairsum_enrol out_sources folder)
   pairsum_each(includes "#include \"backends/@.hpp\"" ${BUILT_BACKENDS})
   list(JOIN BUILT_BACKENDS ", " backends)
   pairsum_write(${folder}/include/sum/all_backends.hpp
-    "// generated\n#pragma once\n#include \"sum/enrol_everywhere.hpp\"\n${includes}namespace pairsum {\n/// Every backend of this build.\nusing all_backends = backend_list<${backends}>;\n}\n")
+    "// generated\n#pragma once\n#include \"sum/enrol_everywhere.hpp\"\n#include \"vector/vector_kernels.hpp\"\n${includes}namespace pairsum {\n/// Every backend of this build.\nusing all_backends = backend_list<${backends}>;\n}\n")
   pairsum_each(includes "#include \"smoothing/@.hpp\"" ${PAIRSUM_ALL_SMOOTHINGS})
   pairsum_write(${folder}/include/smoothing/all_smoothings.hpp "// generated\n#pragma once\n${includes}")
   set(${out_sources} "${sources}" PARENT_SCOPE)

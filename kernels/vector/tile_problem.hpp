@@ -58,7 +58,8 @@ struct tile_kernels {
 };
 
 /// The kernels for interaction I that this machine runs, best first. The library's own interactions have them for every
-/// set of isa_names(), compiled apart; one that a user brings has those of the flags its source is compiled with.
+/// set of isa_names(), compiled apart; for those of one's own vector/vector_kernels.hpp, which sum/all_backends.hpp
+/// includes, makes those of the flags the source is compiled with.
 template <class I>
 std::vector<tile_kernels<I>> vector_kernels();
 

@@ -7,7 +7,7 @@
 #include "sum/gather_cell.hpp"
 #include "sum/half_stencil.hpp"
 #include "sum/setup.hpp"
-#include "vector/vector_kernels.hpp"
+#include "vector/tile_problem.hpp"
 
 namespace pairsum {
 

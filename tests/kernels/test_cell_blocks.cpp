@@ -103,7 +103,7 @@ TEST(block_shape, is_read) {
 
 TEST(block_shape, fits_the_cache) {
   EXPECT_EQ(block_shape::fitting(3, 2 << 20, 1216).width, 4);
-  EXPECT_EQ(block_shape::fitting(3, 16 << 20, 1216).width, 8);
+  EXPECT_EQ(block_shape::fitting(3, 8 << 20, 1216).width, 8);
   EXPECT_EQ(block_shape::fitting(3, 1, 1216).width, 2);
   EXPECT_EQ(block_shape::fitting(2, 2 << 20, 600).width, 16);
 }
