@@ -6,8 +6,8 @@
 //       hits = candidates of all 3^d cells in reach, packed
 //       for vectors of hits j:  u_i += f(i, j).to_i
 //
-// Each pair twice, nothing but the rates of the block's own particles is written, so it is race-free in any order; the
-// blocks and their colours are those of tiles_omp, for the cache's sake.
+// Each pair twice. Race-free: a block writes the rates of its own particles alone, and each cell is in one block. The
+// blocks are those of tiles_omp, for the cache's sake, in one pass.
 #include "core/omp_loop.hpp"
 #include "sum/backend.hpp"
 #include "vector/tile_workspace.hpp"

@@ -26,7 +26,7 @@ void cell_blocks<D>::build(const cells<D>& c) {
   // On a torus of 2^M cells the blocks must be as wide each, and their colours must alternate all the way round.
   std::int64_t width = shape_.width;
   if (shape_.adapts && c.period > 0) width = std::min(width, c.period / 2);
-  if (c.period % (2 * width) != 0)
+  if (!one_pass_ && c.period % (2 * width) != 0)
     throw error("blocks of " + std::to_string(width) + " cells do not go round a torus of " + std::to_string(c.period) +
                 " cells in two colours: take a power of two up to " + std::to_string(c.period / 2) +
                 ", or a grid that takes no M");
@@ -47,7 +47,7 @@ void cell_blocks<D>::build(const cells<D>& c) {
       const auto [entry, is_new] = number.try_emplace(at, static_cast<std::uint32_t>(blocks.size()));
       if (is_new) {
         unsigned colour = 0;
-        for (int d = 0; d < axes; ++d) colour |= static_cast<unsigned>(at[D - axes + d] & 1) << d;
+        for (int d = 0; d < axes && !one_pass_; ++d) colour |= static_cast<unsigned>(at[D - axes + d] & 1) << d;
         blocks.push_back({colour, 0, 0});
       }
       last = at;
@@ -56,7 +56,7 @@ void cell_blocks<D>::build(const cells<D>& c) {
     ++blocks[last_number].cells;
     block_[cell] = last_number;
   }
-  begin_.assign(std::size_t{1} << axes, {});
+  begin_.assign(one_pass_ ? 1 : std::size_t{1} << axes, {});
   std::uint32_t position = 0;
   for (unsigned colour = 0; colour < begin_.size(); ++colour) {
     for (found& b : blocks)

@@ -20,7 +20,11 @@ namespace pairsum {
 template <int D>
 class cell_blocks {
  public:
-  void shape(const block_shape& s) { shape_ = s; }
+  /// `one_pass`: for sums that write their own cells alone; all blocks have one colour then.
+  void shape(const block_shape& s, bool one_pass = false) {
+    shape_ = s;
+    one_pass_ = one_pass;
+  }
 
   /// Throws pairsum::error if blocks of two colours do not fit on a grid that closes on itself.
   void build(const cells<D>& c);
@@ -35,6 +39,7 @@ class cell_blocks {
 
  private:
   block_shape shape_;
+  bool one_pass_ = false;
   std::vector<std::vector<std::uint32_t>> begin_;  ///< by colour: where in order_ its blocks begin, and the end
   column<std::uint32_t> order_, block_;
 };

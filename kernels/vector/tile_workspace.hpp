@@ -28,7 +28,8 @@ class tile_workspace {
   void configure(const setup& s) {
     check_block(s.block);
     blocks_.shape(s.block == "auto" ? block_shape::fitting(s.dim, s.cache_bytes, bytes_per_cell(s.dim))
-                                    : block_shape::parse(s.block));
+                                    : block_shape::parse(s.block),
+                  !symmetric);
     check_isa(s.isa);
     if constexpr (takes_lanes<I>) {
       const auto kernels = vector_kernels<I>();

@@ -177,7 +177,7 @@ TEST(plan, refuses_what_makes_no_sense_in_one_line) {
   expect_refused([](auto& r) { r.grids = {"nope"}; }, "valid: hashed_grid");
   expect_refused([](auto& r) { r.isas = {"nope"}; }, "valid: ");
   for (const char* bad : {"nope", "slab", "slab:", "slab:0", "slab:x", "slab:4x", "ball:4", "slab:99999999999"})
-    expect_refused([&](auto& r) { r.blocks = {"auto", bad}; }, "valid: auto, slab:N");
+    expect_refused([&](auto& r) { r.blocks = {"auto", bad}; }, "block must be auto, slab:N");
   expect_refused([](auto& r) { r.orders = {"nope"}; }, "valid: lattice");
   expect_refused([](auto& r) { r.outside = "nope"; }, "valid: error");
   expect_refused([](auto& r) { r.M = {0}; }, "between 2 and 10");

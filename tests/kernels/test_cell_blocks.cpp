@@ -80,6 +80,17 @@ TEST_P(cell_blocks_test, merged_colours_are_detected) {
     if (blocks.size(colour) > 0) EXPECT_GT(conflicts({0, colour}), 0u) << colour;
 }
 
+TEST(cell_blocks, one_pass_has_them_all) {
+  const indexed_scene s(make_scene("dam_break", 0.05, "rest"), 3);
+  cell_blocks<3> blocks;
+  blocks.shape({3, 3}, true);
+  blocks.build(s.index.view());
+  ASSERT_EQ(blocks.colours(), 1u);
+  std::set<std::uint32_t> seen;
+  for (std::size_t b = 0; b < blocks.size(0); ++b) seen.insert(blocks(0, b).begin(), blocks(0, b).end());
+  EXPECT_EQ(seen.size(), s.index.view().fluid_cells);
+}
+
 TEST(cell_blocks, what_does_not_go_round_a_torus_is_refused_or_narrowed) {
   const indexed_scene s(make_scene("dam_break", 0.08, "rest"), 3);
   cell_blocks<3> blocks;
