@@ -20,7 +20,8 @@ HWY_INLINE void add_boundary_lanes(const tile_problem<I>& t, std::uint32_t i, co
   const auto one = particle_at<I, T>(row);
   for (std::size_t k = 0; k < n; k += N) {
     HWY_ALIGN whole lane[N];
-    for (std::size_t l = 0; l < N; ++l) lane[l] = static_cast<whole>(b[k + l < n ? k + l : k]);
+    std::uint32_t near[N];
+    for (std::size_t l = 0; l < N; ++l) lane[l] = static_cast<whole>(near[l] = b[k + l < n ? k + l : k]);
     const auto place = hn::Load(di, lane);
     const auto from = hn::Sub(place, hn::Set(di, static_cast<whole>(p.fluid_count)));
     vec<D, T> r;
@@ -30,6 +31,7 @@ HWY_INLINE void add_boundary_lanes(const tile_problem<I>& t, std::uint32_t i, co
                 [&](T& v, int s) HWY_ATTR { v = T(hn::GatherIndex(d, p.boundary.template column_as<real>(s), from)); });
     const T r2 = norm2<D, T>(r);
     auto in = hn::Lt(r2.v, hn::Set(d, p.boundary_reach2));
+    if (t.in_reach != nullptr) in = decide_near_ties(t, in, r2.v, p.boundary_reach2, i, near);
     if (n - k < N) in = hn::And(in, hn::FirstN(d, n - k));
     const auto rates = p.formula->boundary(r, r2, one, wall);
     each_scalar(rates, [&](const T& v, int s) HWY_ATTR { u[s] = hn::Add(u[s], hn::IfThenElseZero(in, v.v)); });

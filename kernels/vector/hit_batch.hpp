@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <limits>
 
 #include "vector/rows.hpp"
 
@@ -26,6 +27,24 @@ HWY_INLINE void add_sums(const tile_problem<I>& t, std::uint32_t i, const V (&u)
     add_sums_to_row(row, u);
     for (std::size_t s = 0; s < tiles::rates; ++s) t.p->u.template column_as<real>(s)[i] += row[s];
   }
+}
+
+/// Corrects `in`, the lanes with r2 < reach2, where r2 is so near that rounding decides. other[l] is the particle in
+/// lane l; a lane that is not in and far from the reach is left alone.
+template <class I, class V, class Mask>
+HWY_NOINLINE Mask decide_near_ties(const tile_problem<I>& t, Mask in, V r2, typename I::real reach2, std::uint32_t i,
+                                   const std::uint32_t* other) {
+  using real = typename I::real;
+  const lane_tag<real> d;
+  const real near = 16 * std::numeric_limits<real>::epsilon() * reach2;
+  const auto close = hn::Lt(hn::Abs(hn::Sub(r2, hn::Set(d, reach2))), hn::Set(d, near));
+  if (hn::AllFalse(d, close)) return in;
+  HWY_ALIGN real is_in[lane_count<real>], is_close[lane_count<real>];
+  hn::Store(hn::IfThenElseZero(in, hn::Set(d, real(1))), d, is_in);
+  hn::Store(hn::IfThenElseZero(close, hn::Set(d, real(1))), d, is_close);
+  for (std::size_t l = 0; l < lane_count<real>; ++l)
+    if (is_close[l] > 0) is_in[l] = t.in_reach(*t.p, i, other[l], reach2) ? real(1) : real(0);
+  return hn::Gt(hn::Load(d, is_in), hn::Zero(d));
 }
 
 /// The hits of a few particles i, each list filled up to whole vectors with spare rows, and their sums, lane by lane.
@@ -66,7 +85,7 @@ class alignas(4096) hit_batch {
       V u[S];
       for (std::size_t s = 0; s < S; ++s) u[s] = hn::Zero(lane_tag<real>());
       const real* const row = t_.rows + particles_[k] * tiles::stride;
-      for (const std::size_t end = end_[k]; v < end; ++v) sum_vector<symmetric>(v, row, u);
+      for (const std::size_t end = end_[k]; v < end; ++v) sum_vector<symmetric>(v, particles_[k], row, u);
       add_sums<symmetric>(t_, particles_[k], u);
     }
     vectors_ = n_ = 0;
@@ -76,7 +95,7 @@ class alignas(4096) hit_batch {
   static constexpr std::size_t capacity = 2048, most = 32, padding = 16;
 
   template <bool symmetric>
-  HWY_INLINE void sum_vector(std::size_t vector, const real* row, V (&u)[S]) {
+  HWY_INLINE void sum_vector(std::size_t vector, std::uint32_t i, const real* row, V (&u)[S]) {
     const problem<I>& p = *t_.p;
     const lane_tag<real> d;
     const std::uint32_t* const hits = hits_ + vector * N;
@@ -87,7 +106,8 @@ class alignas(4096) hit_batch {
     particle other;
     each_scalar(other, [&](T& v, int k) HWY_ATTR { v = T(value[D + k]); });
     const T r2 = norm2<D, T>(r);
-    const auto in = hn::Lt(r2.v, hn::Set(d, p.reach2));
+    auto in = hn::Lt(r2.v, hn::Set(d, p.reach2));
+    if (t_.in_reach != nullptr) in = decide_near_ties(t_, in, r2.v, p.reach2, i, hits);
     const auto both = p.formula->pair(r, r2, particle_at<I, T>(row), other);
     each_scalar(both.to_i, [&](const T& v, int s) HWY_ATTR { u[s] = hn::Add(u[s], hn::IfThenElseZero(in, v.v)); });
     if constexpr (symmetric) {

@@ -43,6 +43,9 @@ struct tile_problem {
 
   const problem<I>* p;
   real* rows;  ///< [particle][stride], on 64-byte boundaries
+  /// Decides r^2 < reach2 for particles i and j as scalar code does; nullptr if lanes round alike. One of the two may
+  /// fuse products and sums (see fused()) and the other not, which matters for pairs within rounding of the reach.
+  bool (*in_reach)(const problem<I>& p, std::uint32_t i, std::uint32_t j, real reach2);
 };
 
 /// Sums the cells `cell[0..n)`: their fluid with the forward half of their neighbours, both sides (symmetric), or with
@@ -54,6 +57,7 @@ using tile_function = void (*)(const tile_problem<I>&, const std::uint32_t* cell
 template <class I>
 struct tile_kernels {
   std::string_view isa;
+  bool fuses;  ///< rounds a*b + c once
   tile_function<I> symmetric, gather;
 };
 

@@ -34,7 +34,10 @@ class tile_workspace {
     if constexpr (takes_lanes<I>) {
       const auto kernels = vector_kernels<I>();
       for (const tile_kernels<I>& k : kernels)
-        if (!kernel_ && (s.isa == best_isa || k.isa == s.isa)) kernel_ = symmetric ? k.symmetric : k.gather;
+        if (!kernel_ && (s.isa == best_isa || k.isa == s.isa)) {
+          kernel_ = symmetric ? k.symmetric : k.gather;
+          rounds_alike_ = I::dim == 1 || k.fuses == scalar_fuses;
+        }
       if (!kernel_ && !kernels.empty())
         throw error("interaction " + std::string(I::name) + " was not compiled for isa " + s.isa +
                     "; one of one's own is compiled for one set, by the flags of its source: take isa best");
@@ -71,7 +74,7 @@ class tile_workspace {
   void sum_block(const problem<I>& p, unsigned colour, std::size_t block, int thread, Probe& probe) {
     const auto cell = blocks_(colour, block);
     if (kernel_) {
-      const tiles view{&p, rows_.data()};
+      const tiles view{&p, rows_.data(), rounds_alike_ ? nullptr : &in_reach};
       kernel_(view, cell.data(), cell.size(),
               static_cast<std::uint32_t>(p.fluid_count + spare_rows * static_cast<std::size_t>(thread)));
     } else {
@@ -93,6 +96,15 @@ class tile_workspace {
   std::size_t blocks(unsigned colour) const { return blocks_.size(colour); }
 
  private:
+#ifdef __FP_FAST_FMA
+  static constexpr bool scalar_fuses = true;
+#else
+  static constexpr bool scalar_fuses = false;
+#endif
+  static bool in_reach(const problem<I>& p, std::uint32_t i, std::uint32_t j, real reach2) {
+    return norm2<I::dim, real>(p.position(i) - p.position(j)) < reach2;
+  }
+
   /// Bytes of a cell's particles, at the talk's spacing of H/2.
   static std::size_t bytes_per_cell(int dim) {
     return (std::size_t{1} << dim) * (tiles::stride + I::dim) * sizeof(real);
@@ -120,6 +132,7 @@ class tile_workspace {
   column<real> rows_;
   cell_blocks<I::dim> blocks_;
   tile_function<I> kernel_ = nullptr;
+  bool rounds_alike_ = true;
 };
 
 }  // namespace pairsum

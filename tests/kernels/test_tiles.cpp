@@ -43,6 +43,25 @@ TEST_P(tiles_test, every_instruction_set_is_within_the_bound) {
   }
 }
 
+/// On a lattice of H/2 many pairs are as far apart as H but for rounding: every set takes and leaves the same ones.
+TEST_P(tiles_test, pairs_at_the_reach_are_decided_alike) {
+  scene s = make_scene("lattice", 0.1, "rest");
+  const counter_random random(5);
+  for (std::uint32_t i = 0; i < s.particles.size(); ++i) {
+    for (std::uint32_t d = 0; d < 3; ++d) s.particles.v[d][i] = random.uniform(4 * i + d, -1, 1);
+    s.particles.rho[i] *= 1 + 0.01 * random.uniform(4 * i + 3, -1, 1);
+  }
+  for (const formula& f : formulas()) {
+    if (f.dim != 3) continue;
+    setup world = with(s.world, f, GetParam(), 4);
+    const auto expected = registry::instance().make_reference(world)->brute_force(s.particles, some_threads());
+    for (const std::string_view isa : isa_names()) {
+      world.isa = isa;
+      EXPECT_EQ(disagreement(evaluated(world, s.particles)->rates(), expected), "") << f << " " << isa;
+    }
+  }
+}
+
 /// More candidates around a cell than are copied at once, more particles in it than a batch takes.
 TEST_P(tiles_test, crowded_cells_are_summed_in_pieces) {
   scene s;
