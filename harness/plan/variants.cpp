@@ -23,7 +23,7 @@ std::string isa_of(const std::string& word, const backend_traits& b) {
   if (!b.vector) return compiled_isa();
   if (word != "best") return word;
   const auto names = isa_names();
-  return names.empty() ? compiled_isa() : std::string(names.front());
+  return names.empty() ? word : std::string(names.front());
 }
 
 /// Can the backend sum the world at all? Asked with a tiny world, so that no wrong size speaks for it.

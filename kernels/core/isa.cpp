@@ -1,7 +1,7 @@
 #include "core/isa.hpp"
 
 #include <algorithm>
-#include <array>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/names.hpp"
@@ -66,14 +66,6 @@ void check_isa(std::string_view isa) {
     throw error("isa " + std::string(isa) + " " + why + " (valid: " + join(valid) + ")");
   }
   check_word("isa", std::string(isa), valid);
-}
-
-std::string resolve_isa(std::string_view isa) {
-  check_isa(isa);
-  if (isa != best_isa) return std::string(isa);
-  const auto names = isa_names();
-  if (names.empty()) throw error("this build has no vector code for this machine; configure with -DPAIRSUM_ISAS=all");
-  return std::string(names.front());
 }
 
 }  // namespace pairsum

@@ -1,5 +1,4 @@
 #pragma once
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,8 +14,5 @@ std::vector<std::string_view> isa_names();
 /// Throws pairsum::error unless `isa` is `best` or one of isa_names(); it says if the set is known but not built, or
 /// not of this machine.
 void check_isa(std::string_view isa);
-
-/// The set itself: `best` is the first of isa_names(). Throws like check_isa().
-std::string resolve_isa(std::string_view isa);
 
 }  // namespace pairsum

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sum/candidates.hpp"
 #include "vector/lanes.hpp"
@@ -19,14 +20,12 @@ class alignas(4096) nearby {
  public:
   static constexpr std::size_t capacity = 1104;
 
-  /// Starts over, around `origin`. `total`: size of the columns x.
+  /// Starts over, around `origin`, for a squared reach. Lengths are in units of the reach from here on, so that float
+  /// holds them whatever the reach is.
   template <class R>
   void clear(const vec<D, R>& origin, R reach2) {
     for (int c = 0; c < D; ++c) origin_[c] = origin[c];
-    // Within `near` reaches of the origin per component, u = 2^-24: |x_i|^2 <= 48 and |x_j|^2 <= 63 reaches^2; the sum
-    // rounds four times at most 111 u, the rounding of x_i and x_j themselves adds 32 u: below 3e-5 in all.
-    widened_ = static_cast<float>(static_cast<double>(reach2) * (1 + 5e-5));
-    limit_ = near * std::sqrt(widened_);
+    inverse_ = 1 / std::sqrt(static_cast<double>(reach2));
     n_ = 0;
   }
   std::size_t size() const { return n_; }
@@ -38,13 +37,13 @@ class alignas(4096) nearby {
   bool has_near(const vec<D, R>& x, float (&place)[D]) const {
     bool in = true;
     for (int c = 0; c < D; ++c) {
-      place[c] = static_cast<float>(x[c] - static_cast<R>(origin_[c]));
-      in = in && std::abs(place[c]) < limit_;
+      place[c] = static_cast<float>((x[c] - static_cast<R>(origin_[c])) * static_cast<R>(inverse_));
+      in = in && std::abs(place[c]) < near;
     }
     return in;
   }
 
-  /// Takes candidates from `range` until full; what is left stays in the range.
+  /// Takes candidates from `range` until full; what is left stays in the range. `total`: length of the columns.
   template <class R>
   HWY_INLINE void take(const positions<D, R>& x, std::size_t total, index_range& range) {
     const tag d;
@@ -55,7 +54,7 @@ class alignas(4096) nearby {
     for (std::size_t j = range.begin; j < end; j += N, slot += N, index = hn::Add(index, hn::Set(di, N))) {
       auto square = hn::Zero(d);
       for (int c = 0; c < D; ++c) {
-        const auto v = relative(x.column[c], j, total, static_cast<R>(origin_[c]));
+        const auto v = relative(x.column[c], j, total, static_cast<R>(origin_[c]), static_cast<R>(inverse_));
         hn::StoreU(v, d, x_[c] + slot);
         square = hn::MulAdd(v, v, square);
       }
@@ -69,7 +68,7 @@ class alignas(4096) nearby {
   /// To be called when all were taken: nothing behind the last is in reach of anything.
   HWY_INLINE void close() {
     const tag d;
-    hn::StoreU(hn::Set(d, 1e30f), d, square_ + n_);
+    hn::StoreU(hn::Set(d, std::numeric_limits<float>::quiet_NaN()), d, square_ + n_);
     for (int c = 0; c < D; ++c) hn::StoreU(hn::Zero(d), d, x_[c] + n_);
   }
 
@@ -83,7 +82,7 @@ class alignas(4096) nearby {
     const lane_tag<std::uint32_t> di;
     float own = 0;
     for (int c = 0; c < D; ++c) own += place[c] * place[c];
-    const auto limit = hn::Set(d, widened_ - own);
+    const auto limit = hn::Set(d, widened - own);
     for (std::size_t k = first; k < last; k += N) {
       auto sum = hn::LoadU(d, square_ + k);
       for (int c = 0; c < D; ++c) sum = hn::NegMulAdd(hn::Set(d, 2 * place[c]), hn::LoadU(d, x_[c] + k), sum);
@@ -98,18 +97,22 @@ class alignas(4096) nearby {
   }
 
  private:
-  static constexpr float near = 4;
+  /// How far from the origin a particle may be, per component, and the limit of the test. With u = 2^-24: |x_i|^2 <=
+  /// 48, |x_j|^2 <= 63, the sum rounds up to seven times at most 111 u without fused operations, and the rounding of
+  /// x_i and x_j themselves adds 40 u: less than 5e-5 in all.
+  static constexpr float near = 4, widened = 1 + 5e-5f;
 
-  /// x[j ..) - origin; beyond `total` anything.
-  static HWY_INLINE hn::Vec<tag> relative(const float* x, std::size_t j, std::size_t total, float origin) {
-    return hn::Sub(values(tag(), x, j, total), hn::Set(tag(), origin));
+  /// (x[j ..) - origin) * scale; beyond `total` anything.
+  static HWY_INLINE hn::Vec<tag> relative(const float* x, std::size_t j, std::size_t total, float origin, float scale) {
+    return hn::Mul(hn::Sub(values(tag(), x, j, total), hn::Set(tag(), origin)), hn::Set(tag(), scale));
   }
-  static HWY_INLINE hn::Vec<tag> relative(const double* x, std::size_t j, std::size_t total, double origin) {
+  static HWY_INLINE hn::Vec<tag> relative(const double* x, std::size_t j, std::size_t total, double origin,
+                                          double scale) {
     const lane_tag<double> d;
     const hn::Rebind<float, lane_tag<double>> half;
-    const auto o = hn::Set(d, origin);
-    return hn::Combine(tag(), hn::DemoteTo(half, hn::Sub(values(d, x, j + N / 2, total), o)),
-                       hn::DemoteTo(half, hn::Sub(values(d, x, j, total), o)));
+    const auto o = hn::Set(d, origin), s = hn::Set(d, scale);
+    return hn::Combine(tag(), hn::DemoteTo(half, hn::Mul(hn::Sub(values(d, x, j + N / 2, total), o), s)),
+                       hn::DemoteTo(half, hn::Mul(hn::Sub(values(d, x, j, total), o), s)));
   }
   template <class T, class R>
   static HWY_INLINE hn::Vec<T> values(T d, const R* x, std::size_t j, std::size_t total) {
@@ -127,8 +130,7 @@ class alignas(4096) nearby {
   HWY_ALIGN float x_[D][room];
   HWY_ALIGN float square_[room];
   HWY_ALIGN std::uint32_t index_[room];
-  double origin_[D];
-  float widened_, limit_;
+  double origin_[D], inverse_;
   std::size_t n_ = 0;
 };
 

@@ -71,7 +71,7 @@ class tile_kernel {
     const problem<I>& p = *t.p;
     HWY_ALIGN std::uint32_t hits[near_list::capacity + lane_count<std::uint32_t>];
     each_near(
-        p, own, boundary, p.boundary_reach2, near, [&] { return own.fluid(); },
+        p, own, boundary, p.boundary_reach2, near, [&] { return std::size_t{own.fluid()}; },
         [&](std::uint32_t i, const float(&place)[D], std::size_t) HWY_ATTR {
           const std::uint32_t* const end = near.template find<false>(place, 0, near.size(), hits);
           if (end == hits) return;

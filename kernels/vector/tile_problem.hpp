@@ -33,8 +33,8 @@ inline constexpr bool takes_lanes =
 
 /// What a vector kernel sees: the problem, and the fluid once more as rows, so that a particle that was found is loaded
 /// whole: its position and the fields it brings to a pair, then, from `rates_at` on, its rates. For the talk's formula
-/// in 3D and double that makes two cache lines. Row fluid_count and those behind it, one per thread, are far away from
-/// everything: lanes without a particle point there.
+/// in 3D and double that makes two cache lines. The rows behind the fluid, some for each thread, are nowhere (NaN), so
+/// in reach of nothing: lanes without a particle point there.
 template <class I>
 struct tile_problem {
   using real = typename I::real;
@@ -49,7 +49,8 @@ struct tile_problem {
 };
 
 /// Sums the cells `cell[0..n)`: their fluid with the forward half of their neighbours, both sides (symmetric), or with
-/// all of them, their own side (gather). `spare` is the number of the caller's row behind the fluid.
+/// all of them, their own side (gather). `spare` is the number of the caller's first row behind the
+/// fluid, of as many as a vector has lanes.
 template <class I>
 using tile_function = void (*)(const tile_problem<I>&, const std::uint32_t* cell, std::size_t n, std::uint32_t spare);
 
@@ -80,7 +81,10 @@ std::vector<tile_kernels<I>> kernels_that_run(const std::vector<kernel_maker<I>>
   std::vector<tile_kernels<I>> all;
   for (const std::string_view isa : isa_names())
     for (const kernel_maker<I>& k : built)
-      if (k.isa == isa) all.push_back(k.make());
+      if (k.isa == isa) {
+        all.push_back(k.make());
+        all.back().isa = isa;
+      }
   return all;
 }
 

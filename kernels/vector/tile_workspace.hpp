@@ -1,8 +1,11 @@
 #pragma once
+#include <algorithm>
+#include <limits>
 #include <string>
 
 #include "core/isa.hpp"
 #include "core/names.hpp"
+#include "core/team.hpp"
 #include "sum/cell_blocks.hpp"
 #include "sum/gather_cell.hpp"
 #include "sum/half_stencil.hpp"
@@ -18,7 +21,8 @@ template <class I, bool symmetric>
 class tile_workspace {
   using real = typename I::real;
   using tiles = tile_problem<I>;
-  static constexpr std::size_t spare_rows = 16;  ///< per thread: as many as the widest vector has lanes
+  static constexpr std::size_t spare_rows = 16;             ///< per thread: as many as the widest vector has lanes
+  static constexpr std::size_t most_in_float = 0x7fffffff;  ///< numbers of boundary particles are lanes as wide as real
 
  public:
   /// Does this workspace derive what fluid particles bring to a pair?
@@ -46,6 +50,9 @@ class tile_workspace {
 
   template <class Probe>
   void prepare(const problem<I>& p, const team& t, Probe&) {
+    if (kernel_ && sizeof(real) == 4 && p.count > most_in_float)
+      throw error("vector backends take at most 2^31 - 1 particles in float, got " + std::to_string(p.count));
+    threads_ = t.threads();
     blocks_.build(p.cells());
     if (kernel_) {
       const std::size_t spare = spare_rows * static_cast<std::size_t>(t.threads());
@@ -53,7 +60,8 @@ class tile_workspace {
       t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) fill(p, i);
       });
-      std::fill(rows_.end() - static_cast<std::ptrdiff_t>(spare * tiles::stride), rows_.end(), real(1e15));
+      std::fill(rows_.end() - static_cast<std::ptrdiff_t>(spare * tiles::stride), rows_.end(),
+                std::numeric_limits<real>::quiet_NaN());
     }
   }
 
@@ -67,6 +75,13 @@ class tile_workspace {
           p.u.store(i, pairsum::zero<rates_of<I>>());
       }
     });
+  }
+
+  /// Every thread needs spare rows. Throws pairsum::error for a team larger than that of prepare().
+  void check_team(const team& t) const {
+    if (t.threads() > threads_)
+      throw error("prepared for " + std::to_string(threads_) + " threads, but to be summed on " +
+                  std::to_string(t.threads()));
   }
 
   /// Sums the cells of a block on thread `thread` of the team.
@@ -133,6 +148,7 @@ class tile_workspace {
   cell_blocks<I::dim> blocks_;
   tile_function<I> kernel_ = nullptr;
   bool rounds_alike_ = true;
+  int threads_ = 0;
 };
 
 }  // namespace pairsum

@@ -5,8 +5,11 @@
 #include "vector/highway.hpp"
 #include "vector/tile_problem.hpp"
 
-/// Are there lanes in what this is compiled for? Highway needs SSE4 or NEON.
-#define PAIRSUM_LANES (HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128)
+/// Are there lanes in what this is compiled for? Not without SSSE3 or NEON; nor with vectors of unknown length, of
+/// which no struct can be made.
+#define PAIRSUM_LANES                                                                                                 \
+  (HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SVE_256 && HWY_TARGET != HWY_SVE2_128 && \
+   !HWY_HAVE_SCALABLE)
 #if PAIRSUM_LANES
 #include "vector/tile_kernel.hpp"
 #endif
