@@ -9,12 +9,18 @@ set(PAIRSUM_ALL_BACKENDS
   symmetric
   symmetric_omp
   symmetric_tbb
+  tiles_omp
+  tiles_tbb
+  naive_tiles_omp
 )
 set(PAIRSUM_ALL_SMOOTHED_INTERACTIONS  # those that take a smoothing kernel
   ferrari09
   monaghan94
 )
 set(PAIRSUM_ALL_PLAIN_INTERACTIONS  # those that use none
+  count
+)
+set(PAIRSUM_SCALAR_INTERACTIONS  # of either, those whose particles or rates are not all of the working precision
   count
 )
 set(PAIRSUM_ALL_SMOOTHINGS

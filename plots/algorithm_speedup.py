@@ -14,11 +14,11 @@ def draw(summary):
         columns = []
         for (base_m, _, base), rows in panels.split(_few(panel.rows), "base_M", "runtime",
                                                     "base_backend"):
-            lines = [thread_lines.Line(some, "speedup", f"{backend} {panels.m_text(m)}")
+            lines = [thread_lines.Line(some, "speedup", f"{backend} {panels.m_text(m)}".strip())
                      for (backend, m), some in panels.split(rows, "backend", "M")]
             lines = [line for line in lines if line.rows]
             if lines:
-                columns.append((f"base {base} {panels.m_text(base_m)}", lines))
+                columns.append((f"base {base} {panels.m_text(base_m)}".strip(), lines))
         if columns:
             groups.append((panel, columns))
     if not groups:

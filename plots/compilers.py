@@ -27,4 +27,4 @@ def draw(summary):
 
 
 def _name(row):
-    return f"{row['backend']}, {panels.m_text(row['M'])}, {row['threads']} thr."
+    return f"{row['backend']}, {panels.cells(row)}, {row['threads']} thr."

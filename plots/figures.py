@@ -2,8 +2,8 @@
 
 #: name -> (heading, caption). A figure of SERIES is drawn for each series of points by itself.
 FIGURES = {
-    "ladder": ("All backends", "Time per interacting pair of every backend at its best M, the fastest on top. "
-               "A bar stacks prepare, zero, sum and reduce; the number is all of it, in brackets the sum alone."),
+    "ladder": ("All backends", "Time per interacting pair of every backend at its best grid and M, the fastest on "
+               "top. A bar stacks prepare, zero, sum and reduce; the number is all of it, in brackets the sum alone."),
     "speedup": ("Speedup", "Summation time with 1 thread over that with more threads, of the same backend. Grey: "
                 "ideal, and how the measured flops and memory bandwidth of the machine itself scale."),
     "efficiency": ("Efficiency", "Speedup divided by the number of threads; 1 is ideal."),
@@ -16,9 +16,10 @@ FIGURES = {
     "barrier_wait": ("Waiting at barriers", "One bar per thread: time spent summing (solid) and waiting for other "
                      "threads (light), all passes; the number is the share of the wait."),
     "roofline": ("Roofline", "Achieved flops per second against flops per byte (a model of the work). Grey: what "
-                 "the measured memory bandwidth and peak allow. Large markers: each backend at its best M."),
+                 "the measured memory bandwidth and peak allow. Large markers: each backend at its best grid "
+                 "and M."),
     "size_scaling": ("Size", "Time per sum and per interacting pair against the number of particles, each backend "
-                     "at its best M."),
+                     "at its best grid and M."),
     "granularity": ("Granularity", "Summation time against the chunk of the parallel loop, a line per schedule; a "
                     "schedule without a chunk is a level line."),
     "compilers": ("Compilers", "The same source built by several compilers: time with the base compiler over time "

@@ -17,7 +17,7 @@ def draw(summary):
     """Return the figure, or raise NoData. Per state one panel per backend, M and threads."""
     groups = []
     for panel in panels.of_points(summary, lambda entry: choice.sum_time(entry) is not None, every=True):
-        columns = [(f"{backend}, {panels.m_text(m)}, {threads} thr.", rows) for (backend, m, threads), rows
+        columns = [(panels.joined(backend, panels.m_text(m), f"{threads} thr."), rows) for (backend, m, threads), rows
                    in panels.split(panel.rows, "backend", "M", "threads")
                    if len({row["point"]["granularity"] for row in rows}) > 1]
         if columns:

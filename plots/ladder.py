@@ -18,7 +18,7 @@ _PARTS = (("prepare", 0.6), ("zero", 0.85), ("sum", 0.0), ("reduce", -0.45))
 def draw(summary):
     """Return the figure, or raise NoData. Per state (case, dx, ...): 1 thread and most threads."""
     groups = []
-    for panel in panels.of_points(summary, _known):
+    for panel in panels.of_points(summary, _known, without=("grid",)):
         one = choice.best((row for row in panel.rows if row["threads"] == 1), _all)
         most = choice.best(choice.at_most_threads(panel.rows), _all)
         columns = [("1 thread", one)] if one else []
@@ -61,7 +61,7 @@ def _end(row):
 
 
 def _name(row):
-    return f"{row['backend']}, {panels.m_text(row['M'])}, {row['threads']} thr."
+    return f"{row['backend']}, {panels.cells(row)}, {row['threads']} thr."
 
 
 def _value(row):
@@ -81,7 +81,7 @@ def _look(shade, colour):
 
 def _panel(axes, rows, right):
     for at, row in enumerate(rows):
-        left, name = 0.0, f"{row['backend']} {panels.m_text(row['M'])}"
+        left, name = 0.0, f"{row['backend']} {panels.cells(row)}"
         for part, shade in _PARTS:
             length = row["ns_per_pair_parts"][part]
             axes.barh(at, length, left=left, height=0.7,

@@ -49,14 +49,14 @@ def _answer(answer):
         return None
     return {"text": answer["text"], "time": wording.time(answer["time_s"]), "choice": _point(answer),
             "speedup": wording.number(answer["speedup"], 3), "interval": wording.confident(answer),
-            "base": _point({key: answer[f"base_{key}"] for key in ("backend", "M", "threads")}),
+            "base": _point({key: answer.get(f"base_{key}") for key in ("backend", "grid", "M", "threads", "block")}),
             "base_time": wording.time(answer["base_time_s"]), "ties": list(map(_point, answer["ties"]))}
 
 
 def _point(row):
-    grain = row.get("granularity")
-    return panels.joined(row["backend"], panels.m_text(row["M"]), wording.threads(row["threads"]),
-                         grain if grain != "none" else None)
+    grain, block = row.get("granularity"), row.get("block")
+    return panels.joined(row["backend"], panels.cells(row), wording.threads(row["threads"]),
+                         block if block not in ("none", "auto") else None, grain if grain != "none" else None)
 
 
 def _facts(row):
@@ -105,7 +105,7 @@ def _column(summary, name, prefix, caption, machines):
 
 def worlds(summary):
     """Return [(what tells it apart, the summary of it alone)], one per series of points."""
-    found = panels.of_points(summary, every=True)
+    found = panels.of_points(summary, every=True, without=("grid",))
     _, texts = panels.titles(found) if found else ("", [])
     series = [next(iter(panel.facts["series"]), None) for panel in found]
     if None in series or len(set(series)) != len(series) or len(series) < 2:

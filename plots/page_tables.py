@@ -24,7 +24,8 @@ def _plain_dx(row):
 
 _WORLD = [("case", _key("case"), TEXT), ("state", _key("state"), TEXT), ("dx [m]", _plain_dx, NUMBER),
           ("build", _key("world"), TEXT)]
-_POINT = [("backend", _key("backend"), TEXT), ("M", _key("M"), NUMBER), ("threads", _key("threads"), NUMBER)]
+_VARIED = [("grid", _key("grid"), TEXT), ("isa", _key("isa"), TEXT), ("block", _key("block"), TEXT)]
+_POINT = [("backend", _key("backend"), TEXT), *_VARIED, ("M", _key("M"), NUMBER), ("threads", _key("threads"), NUMBER)]
 _GRAIN = [("granularity", _key("granularity"), TEXT)]
 _TIME = [("time [ms]", _key("time_s", 1e3), NUMBER)]
 _BASE = [("base [ms]", _key("base_time_s", 1e3), NUMBER)]
@@ -47,7 +48,7 @@ TABLES = (
      _WORLD + _POINT + _GRAIN + _TIME + [("base", _key("base_backend"), TEXT), ("base M", _key("base_M"), NUMBER)]
      + _BASE + _SPEEDUP + _VERDICT),
     ("runtime_comparison", "OpenMP against oneTBB", "Ratio: time with OpenMP / time with oneTBB.",
-     _WORLD + [("algorithm", _key("algorithm"), TEXT), ("M", _key("M"), NUMBER), ("threads", _key("threads"), NUMBER),
+     _WORLD + _VARIED + [("algorithm", _key("algorithm"), TEXT), ("M", _key("M"), NUMBER), ("threads", _key("threads"), NUMBER),
       ("OpenMP [ms]", _key("omp_time_s", 1e3), NUMBER), ("oneTBB [ms]", _key("tbb_time_s", 1e3), NUMBER)]
      + _RATIO + _VERDICT),
     ("compiler_comparison", "Compilers", "Ratio: time with the base compiler / time.",
@@ -83,7 +84,7 @@ def of(summaries):
 def _content(summary, name, columns):
     rows = [_flat(summary, name, row) for row in summary.get(name) or [] if isinstance(row, dict)]
     cells = [[cell(row) for _, cell, _ in columns] for row in rows]
-    world = [heading for heading, _, _ in _WORLD]
+    world = [heading for heading, _, _ in _WORLD + _VARIED]
     keep = [at for at, (heading, _, _) in enumerate(columns)
             if len({row[at] for row in cells} - {""}) > (1 if heading in world else 0)]
     return {"heads": [{"text": columns[at][0], "kind": columns[at][2]} for at in keep],

@@ -4,9 +4,10 @@ import usual
 
 #: Fields that tell panels apart. Points hold all of them, tables the first three and maybe more.
 FIELDS = ("case", "state", "dx", "n_fluid", "n_boundary", "H", "order", "dim", "precision",
-          "interaction", "smoothing", "integrator", "dt", "isa", "grid", "study", "series")
+          "interaction", "smoothing", "integrator", "dt", "grid", "study", "series")
 _NO_BREAK = "\N{NO-BREAK SPACE}"
 #: Always named in a title; the other fields only where they differ.
+_USUAL_GRID = "hashed_grid"
 _ALWAYS = ("case", "state", "dx", "N", "precision", "interaction")
 
 
@@ -35,11 +36,13 @@ def of_table(summary, table, keep=lambda row: True):
 def of_points(summary, keep=lambda entry: True, every=False, without=()):
     """Group the summary's points by everything but backend, M, threads and the fields `without`.
 
-    Points of another granularity than the usual one are left out unless `every` is wanted.
+    Points of another isa or block than the usual one of their backend are left out, those of another granularity unless
+    `every` is wanted.
     """
-    keeps, copies = usual.is_usual(summary), self_test_copies(summary)
+    keeps = usual.is_usual(summary, ("isa", "block") if every else usual.FIELDS)
+    copies = self_test_copies(summary)
     entries = [{**entry, **flat(summary, entry)} for entry in summary["points"]
-               if keep(entry) and (every or keeps(entry["point"]))
+               if keep(entry) and keeps(entry["point"])
                and entry["point"]["backend"] not in copies]
     fields = [field for field in (*FIELDS, "environment") if field not in without]
     return [Panel(rows, {**_facts(rows), **{field: set() for field in without}})
@@ -71,7 +74,7 @@ def titles(panels):
         if len(set(texts)) > 1:
             for texts_of_panel, text in zip(own, texts):
                 texts_of_panel.append(text)
-        elif texts[0] and (field in _ALWAYS or " / " in texts[0]):
+        elif texts[0] and (field in _ALWAYS or " / " in texts[0] or field == "grid" and texts[0] != _USUAL_GRID):
             common.append(texts[0])
     return joined(*common), [joined(*texts) for texts in own]
 
@@ -82,8 +85,13 @@ def joined(*texts):
 
 
 def m_text(m):
-    """Return "M=6", or "no M" for a point without a grid."""
-    return "no M" if m is None else f"M={m}"
+    """Return "M=6", or an empty text for a grid that takes none."""
+    return "" if m is None else f"M={m}"
+
+
+def cells(row):
+    """Return "M=6" of a point or row, or the name of a grid that takes no M."""
+    return m_text(row["M"]) or row.get("grid") or "no M"
 
 
 def split(rows, *fields):
@@ -119,7 +127,7 @@ def _words(facts):
         "precision": str, "interaction": str, "dim": lambda v: f"{v}D",
         "H": lambda v: f"H = {v:g} m",
         "order": lambda v: f"order {v}", "smoothing": str, "integrator": str,
-        "dt": lambda v: f"dt = {v:g} s", "isa": lambda v: f"isa {v}",
+        "dt": lambda v: f"dt = {v:g} s",
         "grid": str, "study": lambda v: f"study {v}",
         "environment": str,
     }

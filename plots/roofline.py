@@ -16,7 +16,7 @@ def draw(summary):
     Every point is a small marker, each backend at its best M is a large one with its name.
     """
     groups = []
-    for panel in panels.of_points(summary, _known):
+    for panel in panels.of_points(summary, _known, without=("grid",)):
         columns = []
         for threads, rows in panels.split(panel.rows, "threads"):
             columns.append((f"{threads} thread{'s' * (threads != 1)}", rows,
@@ -68,7 +68,7 @@ def _limits(everything):
 
 
 def _name(row):
-    return f"{row['backend']} {panels.m_text(row['M'])}"
+    return f"{row['backend']} {panels.cells(row)}"
 
 
 def _panel(axes, rows, peaks, limits):

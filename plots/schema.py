@@ -47,7 +47,7 @@ MODEL = {"intensity": POSITIVE, "achieved_flops_per_s": POSITIVE, "share_of_boun
 PHASES = ("index_s", "prepare_s", "zero_s", "sum_s", "reduce_s", "integrate_s", "total_s")
 PAIR_PARTS = ("prepare", "zero", "sum", "reduce", "all")
 #: Other fields that may tell panels apart.
-SCALARS = ("H", "order", "dim", "smoothing", "integrator", "dt", "isa", "grid", "study", "series",
+SCALARS = ("H", "order", "dim", "smoothing", "integrator", "dt", "isa", "grid", "block", "study", "series",
            "granularity")
 
 

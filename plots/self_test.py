@@ -24,4 +24,4 @@ def _name(row):
     who = row["base_backend"]
     if not row["backend"].endswith(who):  # a copy's name ends in that of its base
         who = f"{row['backend']} / {who}"
-    return f"{row['what']}: {who}, {panels.m_text(row['M'])}, {row['threads']} thr."
+    return f"{row['what']}: {who}, {panels.cells(row)}, {row['threads']} thr."

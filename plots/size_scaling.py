@@ -9,7 +9,7 @@ import thread_lines
 from summary import NoData
 
 NAME = "size_scaling"
-_SIZE = ("dx", "n_fluid", "n_boundary", "N", "H", "dt", "series")
+_SIZE = ("dx", "n_fluid", "n_boundary", "N", "H", "dt", "series", "grid")
 
 
 def draw(summary):

@@ -8,7 +8,8 @@ MUTED = "#6f6f6f"     # footers, secondary text
 RULE = "#9a9a9a"      # reference lines (ideal, equal)
 GRID = "#e4e4e4"
 
-#: Okabe-Ito palette and grey: safe for colour-blind readers; one backend, one colour, everywhere.
+#: Okabe-Ito palette and grey, and the dark colours of Tol's muted scheme: safe for colour-blind readers; one backend,
+#: one colour, everywhere.
 BACKENDS = {
     "naive": "#000000",
     "naive_omp": "#E69F00",
@@ -19,6 +20,9 @@ BACKENDS = {
     "symmetric": "#56B4E9",
     "symmetric_omp": "#0072B2",
     "symmetric_tbb": "#009E73",
+    "tiles_omp": "#332288",
+    "tiles_tbb": "#117733",
+    "naive_tiles_omp": "#882255",
 }
 #: For a backend that this list does not know yet: a colour by its name, the same in each figure.
 SPARE = ("#7A4B1E", "#6A5ACD", "#8B8B00", "#8B0000", "#2F4F4F")

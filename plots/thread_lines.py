@@ -14,7 +14,7 @@ class Line:
                            key=lambda row: row["threads"])
         self.value, self.text = value, text
         self.backend, self.m = rows[0]["backend"], rows[0]["M"]
-        self.name = f"{self.backend} {panels.m_text(self.m)}"
+        self.name = f"{self.backend} {panels.cells(rows[0])}"
 
     def draw(self, axes):
         """Draw the line, named "backend M=m", and its intervals where they are known."""

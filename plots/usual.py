@@ -1,29 +1,38 @@
-"""The granularity that each backend was measured with as a rule; figures show points of it."""
+"""The granularity, isa and block that each backend was measured with as a rule; figures show points of these."""
+
+#: A point that does not say one of them (of an earlier version) has the usual one.
+FIELDS = ("granularity", "isa", "block")
 
 
-def of_backends(summary):
-    """Return {backend: its granularity}: the one it was measured with at the most points."""
-    counts = {}
+def of_backends(summary, field):
+    """Return {backend: its usual word}: that of the most points; of several such the one with the fastest point."""
+    found = {}
     for entry in summary["points"]:
-        some = counts.setdefault(entry["point"]["backend"], {})
-        word = entry["point"]["granularity"]
-        some[word] = some.get(word, 0) + 1
-    return {backend: max(some, key=some.get) for backend, some in counts.items()}
+        point = entry["point"]
+        if point.get(field) is not None:
+            times = found.setdefault(point["backend"], {}).setdefault(point[field], [])
+            times.append(entry["phases"].get("sum_s", {}).get("median") or float("inf"))
+    return {backend: max(words, key=lambda word: (len(words[word]), -min(words[word])))
+            for backend, words in found.items()}
 
 
-def is_usual(summary):
-    """Return a test of a table's row or a point: is it of its backend's usual granularity?
+def is_usual(summary, fields=FIELDS):
+    """Return a test of a table's row or a point: has it the usual words of its backend?
 
-    A row that does not say its granularity passes.
+    A row that does not say a field passes.
     """
-    words = of_backends(summary)
-    return lambda row: row.get("granularity") in (None, words.get(row["backend"], row.get("granularity")))
+    usual = {field: of_backends(summary, field) for field in fields}
+    return lambda row: all(row.get(field) in (None, usual[field].get(row.get("backend"), row.get(field)))
+                           for field in fields)
 
 
 def text(summary):
-    """Say the usual granularities, or nothing if no backend was measured with several."""
-    several = {backend: set() for backend in of_backends(summary)}
-    for entry in summary["points"]:
-        several[entry["point"]["backend"]].add(entry["point"]["granularity"])
-    words = {backend: word for backend, word in of_backends(summary).items() if len(several[backend]) > 1}
-    return ", ".join(f"{backend} {word}" for backend, word in words.items())
+    """Say the usual words of the backends that were measured with several, or nothing."""
+    said = []
+    for field in FIELDS:
+        several = {}
+        for entry in summary["points"]:
+            several.setdefault(entry["point"]["backend"], set()).add(entry["point"].get(field))
+        said += [f"{backend} {word}" for backend, word in of_backends(summary, field).items()
+                 if len(several[backend]) > 1]
+    return ", ".join(said)

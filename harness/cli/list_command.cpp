@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/case.hpp"
+#include "core/isa.hpp"
 #include "core/names.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/plan/study.hpp"
@@ -15,6 +16,22 @@
 namespace pairsum::harness {
 namespace {
 
+/// The precisions for which a backend has a formula in this build.
+std::vector<std::string> precisions_of(const backend_entry& b, const registry& r) {
+  std::vector<std::string> precisions;
+  run_request q;
+  q.backends = {std::string(b.traits.name)};
+  q.interactions = r.interactions();
+  q.smoothings = r.smoothings();
+  if (!b.unavailable.empty() || r.dims().empty()) return precisions;
+  q.dim = r.dims().front();
+  for (const std::string& precision : r.precisions()) {
+    q.precisions = {precision};
+    if (!expand(q, r).empty()) precisions.push_back(precision);
+  }
+  return precisions;
+}
+
 nlohmann::json as_json() {
   const registry& r = registry::instance();
   nlohmann::json all{{"schema", "pairsum.list/1"},
@@ -23,6 +40,7 @@ nlohmann::json as_json() {
                      {"precisions", r.precisions()},
                      {"dims", r.dims()},
                      {"grids", grid_names()},
+                     {"isas", isa_names()},
                      {"orders", memory_orders},
                      {"states", case_states}};
   for (const backend_entry& b : r.backends())
@@ -33,7 +51,13 @@ nlohmann::json as_json() {
          {"threads", name_of(b.traits.threads)},
          {"symmetric", b.traits.symmetric},
          {"deterministic", b.traits.deterministic},
+         {"vector", b.traits.vector},
+         {"blocks", b.traits.blocks},
+         {"precisions", precisions_of(b, r)},
          {"unavailable", b.unavailable.empty() ? nlohmann::json() : nlohmann::json(b.unavailable)}});
+  all["grids_with_M"] = nlohmann::json::array();
+  for (const std::string_view grid : grid_names())
+    if (grid_takes_M(grid)) all["grids_with_M"].push_back(grid);
   all["plain_interactions"] = nlohmann::json::array();
   for (const std::string& i : r.interactions())
     if (!r.is_smoothed(i)) all["plain_interactions"].push_back(i);  // those that take no smoothing kernel
@@ -69,9 +93,9 @@ void print_text() {
     fmt::print("unavailable       {} {}: not in this build, configure with -D{}=all\n", m.kind, m.word, m.option);
   fmt::print(
       "interactions      {}\nsmoothing kernels {}\nprecisions        {}\ndimensions        {}\ngrids             {}\n"
-      "orders of memory  {}\nstates            {}\n",
+      "orders of memory  {}\nstates            {}\ninstruction sets  {} (of vector backends)\n",
       join(r.interactions()), join(r.smoothings()), join(r.precisions()), join(dims), join(grid_names()),
-      join(memory_orders), join(case_states));
+      join(memory_orders), join(case_states), join(isa_names()));
 }
 
 }  // namespace

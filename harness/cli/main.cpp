@@ -20,6 +20,7 @@ constexpr const char* examples =
     "  pairsum verify                                        every backend against the O(N^2) reference\n"
     "  pairsum run quick                                     a small study of everything, about a minute\n"
     "  pairsum run --dx 0.02 --backend naive_omp,symmetric_omp --M 6,7 --threads 1,2\n"
+    "  pairsum tune --dx 0.02                                what is fastest for a case, in a minute\n"
     "  pairsum report results/run                            tables, CSV and summary.json of what was measured\n"
     "  pairsum compare naive_omp symmetric_omp --in results  which is faster, and how sure is that\n"
     "Exit codes: 0 fine, 1 a verification failed, 2 bad input, 130 interrupted.";
@@ -34,6 +35,7 @@ int run_program(int argc, char** argv) {
   pairsum::harness::add_verify_command(app, chosen);
   pairsum::harness::add_run_command(app, chosen);
   pairsum::harness::add_worker_command(app, chosen);
+  pairsum::harness::add_tune_command(app, chosen);
   pairsum::harness::add_report_command(app, chosen);
   pairsum::harness::add_compare_command(app, chosen);
   if (argc > 1 && argv[1][0] != '-') {

@@ -15,6 +15,7 @@
 #include "harness/run/dry_run.hpp"
 #include "harness/run/study.hpp"
 #include "harness/run/worker.hpp"
+#include "harness/tune/profile_json.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -40,7 +41,9 @@ constexpr level_option level_options[] = {
     {"smoothing", "wendland_c2", "smoothing kernels, a list"},
     {"integrator", "euler", "time stepping, a list"},
     {"dt", "1e-5", "time step in s"},
-    {"grid", "hashed_grid", "grid"},
+    {"grid", "hashed_grid", "grids, a list; those that take no M are measured once"},
+    {"isa", "best", "instruction sets of vector backends, a list; best: the best that this machine has"},
+    {"block", "auto", "blocks of backends that have some, a list: auto, slab:4, pencil:4, brick:4 (4 cells wide)"},
     {"order", "lattice", "orders of memory at the start, a list: lattice, shuffled, morton"},
     {"outside", "error", "particles outside Omega: error or drop"},
     {"steps", "5", "time steps per repetition"},
@@ -51,7 +54,7 @@ constexpr level_option level_options[] = {
 constexpr int rounds_of_interval = 6;  ///< fewer give no interval of 95 % for a median
 
 struct run_options {
-  std::string plan, study = "run", out, results = "results", binding = "cores_first";
+  std::string plan, profile, study = "run", out, results = "results", binding = "cores_first";
   std::map<std::string, std::string> levels;
   std::vector<std::string> programs;
   int rounds = 6;
@@ -62,20 +65,33 @@ struct run_options {
 /// What was given beside the defaults, by option name without dashes.
 using given_options = std::map<std::string, bool>;
 
-study_plan plan_from_options(const run_options& o) {
+/// The levels of a profile, where no option says otherwise.
+run_request profile_levels(const run_options& o, const given_options& given) {
+  const saved_profile p = read_profile(o.profile);
+  if (const std::string text = differences(p); !text.empty()) fmt::print("note: {}\n", text);
+  run_request r = p.levels;
+  for (const auto& [key, text] : o.levels)
+    if (given.at(key) || !profile_says(key)) read_level(r, key, text, usable_cores(), "--" + key);
+  return r;
+}
+
+study_plan plan_from_options(const run_options& o, const given_options& given) {
   study_plan plan;
   plan.study = o.study;
   plan.title = "run";
   plan.peaks = o.peaks;
   part_plan part;
+  if (!o.profile.empty()) part.request = profile_levels(o, given);
   part.request.study = o.study;
-  for (const auto& [key, text] : o.levels) read_level(part.request, key, text, usable_cores(), "--" + key);
+  if (o.profile.empty())
+    for (const auto& [key, text] : o.levels) read_level(part.request, key, text, usable_cores(), "--" + key);
   plan.parts.push_back(part);
   return plan;
 }
 
 study_plan plan_of(const run_options& o, const given_options& given) {
-  if (o.plan.empty()) return plan_from_options(o);
+  if (o.plan.empty()) return plan_from_options(o, given);
+  if (given.at("profile")) throw error("--profile names points, and so does the plan " + o.plan);
   for (const level_option& level : level_options)
     if (given.at(level.key) && std::string(level.key) != "seed")
       throw error(fmt::format("--{} is said by the plan {}; --show-plan prints it, for a plan file of your own",
@@ -117,6 +133,7 @@ int start(const run_options& o, const given_options& given) {
                     : fmt::format("the plan compares {} builds: name the {} with --program; {} {} named", plan.builds,
                                   plan.builds == 2 ? "other one" : "others", o.programs.size(),
                                   o.programs.size() == 1 ? "is" : "are"));
+  if (given.at("profile") && o.profile.empty()) throw error("--profile takes the name of a file, not \"\"");
   if (given.at("out") && o.out.empty()) throw error("--out takes the name of a file, not \"\"");
   study_options options;
   options.binding = o.binding;
@@ -147,6 +164,8 @@ void add_run_command(CLI::App& app, action& chosen) {
   for (const level_option& level : level_options)
     command->add_option(std::string("--") + level.key, o->levels[level.key] = level.standard, level.what)
         ->capture_default_str();
+  command->add_option("--profile", o->profile,
+                      "file of pairsum tune --save: its case and its winner's words where no option says otherwise");
   command->add_option("--study", o->study, "name of the study, a folder under --results")->capture_default_str();
   command
       ->add_option(

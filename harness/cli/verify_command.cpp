@@ -3,12 +3,16 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "core/isa.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/measure/memory.hpp"
 #include "harness/plan/plan.hpp"
 #include "harness/plan/words.hpp"
+#include "harness/rows/point_words.hpp"
+#include "harness/run/point_setup.hpp"
 #include "harness/verify/verify_all.hpp"
+#include "sum/grids.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -16,7 +20,8 @@ namespace {
 struct verify_options {
   run_request request;
   std::string case_name, dx, state = "perturbed", dim = "all", precision = "all", interaction = "all",
-                             smoothing = "all", backend = "all", M = "2,3,6,7", threads = "1,2,3,7";
+                             smoothing = "all", backend = "all", grid = "all", isa = "all", block = "auto",
+                             M = "2,3,6,7", threads = "1,2,3,7";
   bool each = false;
 };
 
@@ -26,6 +31,8 @@ std::vector<std::string> words_or_all(const std::string& option, const std::stri
   return text == "all" ? every : parse_words(option, text);
 }
 
+std::vector<std::string> to_words(const std::vector<std::string_view>& names) { return {names.begin(), names.end()}; }
+
 /// Prints one line per formula, or per sum, as they are made.
 class lines_printer {
  public:
@@ -33,16 +40,17 @@ class lines_printer {
   ~lines_printer() { close(); }
 
   void add(const verify_line& l) {
-    const std::string formula = fmt::format("{}D  {:<8}{:<12}{:<14}", dim_, l.precision, l.interaction, l.smoothing);
+    const setup& s = l.sum;
+    const std::string formula = fmt::format("{}D  {:<8}{:<12}{:<14}", dim_, s.precision, s.interaction, s.smoothing);
     if (formula != formula_) close();
     formula_ = formula;
     ++made;
     ++here_;
     failed += !l.ok;
     failed_here_ += !l.ok;
-    if (l.share >= worst_) worst_ = l.share, worst_backend_ = l.backend;
+    if (l.share >= worst_) worst_ = l.share, worst_backend_ = s.backend;
     if (each_ || !l.ok)
-      fmt::print("{}{:<16}M={:<3}threads={:<4}{}\n", formula, l.backend, l.M, l.threads,
+      fmt::print("{}{:<16} {:<13} threads={:<4}{}\n", formula, s.backend + extras(s), cells(s), l.threads,
                  l.ok ? fmt::format("{:.3g}", l.share) : "FAILED: " + l.error);
     std::fflush(stdout);
   }
@@ -50,6 +58,17 @@ class lines_printer {
   std::size_t made = 0, failed = 0;
 
  private:
+  static std::string cells(const setup& s) {
+    point p;
+    p.grid = s.grid;
+    p.M = grid_takes_M(s.grid) ? s.M : 0;
+    return cells_word(p);
+  }
+  /// What was chosen of isa and block.
+  static std::string extras(const setup& s) {
+    return (s.isa == "best" ? "" : " " + s.isa) + (s.block == "auto" ? "" : " " + s.block);
+  }
+
   void close() {
     if (here_ > 0 && !each_)
       fmt::print("{}{:>5} sums   {}\n", formula_, here_,
@@ -88,6 +107,9 @@ int verify(const verify_options& o) {
   q.precisions = words_or_all("--precision", o.precision, r.precisions());
   q.interactions = words_or_all("--interaction", o.interaction, r.interactions());
   q.smoothings = words_or_all("--smoothing", o.smoothing, r.smoothings());
+  q.grids = words_or_all("--grid", o.grid, to_words(grid_names()));
+  q.isas = words_or_all("--isa", o.isa, to_words(isa_names()));
+  q.blocks = parse_words("--block", o.block);
   std::vector<int> dims = o.dim == "all" ? r.dims() : parse_counts("--dim", o.dim, 0);
   if (o.dim == "all")
     for (const case_entry& c : case_entries())
@@ -98,14 +120,7 @@ int verify(const verify_options& o) {
     check_request(q);
   }
   keep_freed_memory();
-  verify_plan plan;
-  plan.base.grid = q.grid;
-  plan.precisions = q.precisions;
-  plan.interactions = q.interactions;
-  plan.smoothings = q.smoothings.empty() ? std::vector<std::string>{"none"} : q.smoothings;
-  plan.backends = q.backends;
-  plan.M = q.M;
-  plan.threads = q.threads;
+  if (q.smoothings.empty()) q.smoothings = {std::string(no_smoothing)};
   std::size_t made = 0, failed = 0;
   for (const int dim : dims) {
     q.dim = dim;
@@ -117,7 +132,10 @@ int verify(const verify_options& o) {
                    q.case_name, dim, dx, state, c.particles.count(particle_kind::fluid),
                    c.particles.count(particle_kind::boundary));
         lines_printer lines(dim, o.each);
-        verify_all(r, c, plan, [&](const verify_line& l) { lines.add(l); });
+        run_request here = q;
+        here.dx = {dx};
+        here.states = {state};
+        verify_all(r, c, verify_plan_of(here, r), [&](const verify_line& l) { lines.add(l); });
         made += lines.made;
         failed += lines.failed;
       }
@@ -131,7 +149,8 @@ int verify(const verify_options& o) {
 void add_verify_command(CLI::App& app, action& chosen) {
   CLI::App* const command = app.add_subcommand(
       "verify",
-      "Sums a case with every formula, backend, M and number of threads, and compares each rate with a reference\n"
+      "Sums a case with every formula, backend, grid, M and number of threads, and compares each rate with a "
+      "reference\n"
       "that shares no grid, sort or loop with them. The bound comes from running error analysis of the formula.");
   const auto o = std::make_shared<verify_options>();
   command->add_option("--case", o->case_name, "initial condition (default: dam_break, in 1D lattice)");
@@ -141,6 +160,11 @@ void add_verify_command(CLI::App& app, action& chosen) {
   command->add_option("--backend", o->backend, "backends, or all")->capture_default_str();
   command->add_option("--interaction", o->interaction, "interactions, or all that are built")->capture_default_str();
   command->add_option("--M", o->M, "hash sizes, like 2,3 or 5..9")->capture_default_str();
+  command->add_option("--grid", o->grid, "grids, or all")->capture_default_str();
+  command->add_option("--isa", o->isa, "instruction sets of vector backends, or all of this build and machine")
+      ->capture_default_str();
+  command->add_option("--block", o->block, "blocks of backends that have some, a list: auto, slab:4, ...")
+      ->capture_default_str();
   command->add_option("--threads", o->threads, "numbers of threads, or all")->capture_default_str();
   command->add_option("--precision", o->precision, "working precisions, or all that are built")->capture_default_str();
   command->add_option("--smoothing", o->smoothing, "smoothing kernels, or all that are built")->capture_default_str();

@@ -1,6 +1,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cases/case.hpp"
@@ -8,6 +9,8 @@
 #include "harness/gbench/bench.hpp"
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
+#include "harness/rows/point_words.hpp"
+#include "harness/run/point_setup.hpp"
 #include "harness/verify/verifier.hpp"
 #include "sum/setup_of.hpp"
 
@@ -17,13 +20,12 @@ namespace {
 /// Particles and reference, made when the first benchmark needs them.
 struct shared_world {
   initial_condition initial;
-  setup base;
   std::unique_ptr<verifier> oracle;
 
   explicit shared_world(const bench_request& r)
-      : initial(make_case(r.case_name, {.dx = r.dx, .H = 0, .state = r.state, .seed = 1})), base(setup_of(initial)) {
+      : initial(make_case(r.case_name, {.dx = r.dx, .H = 0, .state = r.state, .seed = 1})) {
     const worker_team all(runtime::omp, usable_cores());
-    oracle = std::make_unique<verifier>(registry::instance(), base, initial.particles, all.get());
+    oracle = std::make_unique<verifier>(registry::instance(), setup_of(initial), initial.particles, all.get());
   }
 };
 
@@ -32,13 +34,10 @@ shared_world& world_of(const bench_request& r) {
   return the_one;
 }
 
-void sum_benchmark(benchmark::State& state, const bench_request& r, const std::string& backend, int M, int threads) {
+void sum_benchmark(benchmark::State& state, const bench_request& r, const point& p) {
   shared_world& w = world_of(r);
-  setup s = w.base;
-  s.backend = backend;
-  s.M = M;
-  const auto summation = registry::instance().make_summation(s);
-  const worker_team workers(summation->traits().threads, threads);
+  const auto summation = registry::instance().make_summation(setup_of_point(p, w.initial, registry::instance()));
+  const worker_team workers(summation->traits().threads, p.threads);
   const team& t = workers.get();
   summation->load(w.initial.particles, {});
   summation->evaluate(t);
@@ -74,21 +73,35 @@ void sum_benchmark(benchmark::State& state, const bench_request& r, const std::s
 
 }  // namespace
 
+run_request as_run(const bench_request& r) {
+  run_request q;
+  q.case_name = r.case_name;
+  q.states = {r.state};
+  q.dx = {r.dx};
+  q.M = r.M;
+  q.threads = r.threads;
+  q.grids = r.grids;
+  q.isas = r.isas;
+  q.blocks = r.blocks;
+  q.backends.clear();
+  for (const backend_entry& b : registry::instance().backends())
+    if (b.unavailable.empty()) q.backends.emplace_back(b.traits.name);
+  return q;
+}
+
 void register_backends(const bench_request& r) {
-  for (const backend_entry& b : registry::instance().backends()) {
-    if (!b.unavailable.empty()) continue;
-    const std::string name(b.traits.name);
-    for (const int M : r.M)
-      for (const int threads : r.threads) {
-        const bool serial = b.traits.threads == runtime::serial;
-        if (serial && threads != r.threads.front()) continue;
-        const int used = serial ? 1 : threads;
-        benchmark::RegisterBenchmark(fmt::format("{}/{}/M:{}/threads:{}", name, r.case_name, M, used).c_str(),
-                                     [=](benchmark::State& s) { sum_benchmark(s, r, name, M, used); })
-            ->UseManualTime()
-            ->Unit(benchmark::kMillisecond);
-      }
-  }
+  for (const world_plan& points : expand(as_run(r)))
+    for (const point& p : points) {
+      const backend_traits& traits = registry::instance().find_backend(p.backend).traits;
+      std::string cells = cells_word(p);
+      std::ranges::replace(cells, '=', ':');
+      const std::string name =
+          fmt::format("{}/{}/{}/threads:{}{}{}", p.backend, r.case_name, cells, p.threads,
+                      traits.vector ? "/isa:" + p.isa : "", traits.blocks ? "/block:" + p.block : "");
+      benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& s) { sum_benchmark(s, r, p); })
+          ->UseManualTime()
+          ->Unit(benchmark::kMillisecond);
+    }
 }
 
 }  // namespace pairsum::harness

@@ -2,6 +2,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/plan/plan.hpp"
+
 namespace pairsum::harness {
 
 /// What pairsum_bench measures; set by its own flags, before Google Benchmark sees the rest.
@@ -9,11 +11,16 @@ struct bench_request {
   std::string case_name = "dam_break", state = "rest";
   double dx = 0.02;
   std::vector<int> M{6, 7}, threads{1};
+  std::vector<std::string> grids{"hashed_grid"}, isas{"best"}, blocks{"auto"};
 };
 
-/// Registers one benchmark per backend x M x threads, "symmetric_omp/dam_break/M:6/threads:2": manual time of the
-/// summation phase, counters for the other phases and the work. A backend whose rates are wrong gets an error instead
-/// of a time.
+/// The same as a request, of every backend that is built.
+run_request as_run(const bench_request& r);
+
+/// Registers one benchmark per backend x grid x M x threads, "symmetric_omp/dam_break/M:6/threads:2" or
+/// "symmetric_omp/dam_break/compact_grid/threads:2", with isa and block where a backend chooses them: manual time of
+/// the summation phase, counters for the other phases and the work. A backend whose rates are wrong gets an error
+/// instead of a time.
 void register_backends(const bench_request& r);
 
 /// Registers the parts: "smoothing/wendland_c2", "hashing/M:6", "counting_sort/bits:18".

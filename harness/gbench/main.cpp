@@ -18,7 +18,7 @@ using namespace pairsum::harness;
 /// Takes the program's own flags out of the command line; what is left is Google Benchmark's.
 bench_request parse(CLI::App& app, int argc, char** argv, std::vector<std::string>& rest) {
   bench_request r;
-  std::string M = "6,7", threads = "all";
+  std::string M = "6,7", threads = "all", grid = "hashed_grid", isa = "best", block = "auto";
   app.allow_extras();
   app.set_help_flag("");
   app.add_option("--case", r.case_name);
@@ -26,17 +26,17 @@ bench_request parse(CLI::App& app, int argc, char** argv, std::vector<std::strin
   app.add_option("--state", r.state);
   app.add_option("--M", M);
   app.add_option("--threads", threads);
+  app.add_option("--grid", grid);
+  app.add_option("--isa", isa);
+  app.add_option("--block", block);
   app.parse(argc, argv);
   rest = app.remaining();
   r.M = parse_counts("--M", M, 0);
   r.threads = parse_counts("--threads", threads, usable_cores());
-  run_request check;
-  check.case_name = r.case_name;
-  check.states = {r.state};
-  check.dx = {r.dx};
-  check.M = r.M;
-  check.threads = r.threads;
-  check_request(check);
+  r.grids = parse_words("--grid", grid);
+  r.isas = parse_words("--isa", isa);
+  r.blocks = parse_words("--block", block);
+  check_request(as_run(r));
   return r;
 }
 
@@ -49,7 +49,7 @@ int run(int argc, char** argv) {
     if (w == "--help" || w == "-h")
       fmt::print(
           "pairsum_bench [--case NAME] [--dx M] [--state rest|perturbed] [--M 6,7] [--threads 1,2|all] "
-          "[--benchmark_filter=REGEX ...]\n");
+          "[--grid NAMES] [--isa NAMES] [--block auto,slab:4] [--benchmark_filter=REGEX ...]\n");
     words.push_back(w.data());
   }
   int n = static_cast<int>(words.size());

@@ -8,10 +8,12 @@
 
 #include "cases/case.hpp"
 #include "core/granularity.hpp"
+#include "core/isa.hpp"
 #include "core/names.hpp"
 #include "core/random.hpp"
-#include "harness/environment/environment.hpp"
+#include "harness/plan/variants.hpp"
 #include "integrators/integrator.hpp"
+#include "sum/block_shape.hpp"
 #include "sum/grids.hpp"
 #include "sum/registry.hpp"
 
@@ -43,12 +45,15 @@ void check_request(const run_request& r, const registry& all) {
   all.check_dim(r.dim);
   for (const auto& o : r.orders) check_word("order", o, memory_orders);
   for (const auto& i : r.integrators) find_integrator(i);
-  check_word("grid", r.grid, grid_names());
+  for (const auto& g : r.grids) check_word("grid", g, grid_names());
+  for (const auto& i : r.isas) check_isa(i);
+  for (const auto& b : r.blocks) check_block(b);
   check_word("value of --outside", r.outside, std::vector<std::string_view>{"error", "drop"});
   for (const double dx : r.dx) check_positive("dx", dx);
   if (r.H != 0) check_positive("H", r.H);
   check_positive("dt", r.dt);
   for (const int M : r.M) check_hash_size(r.dim, M);
+  check_built(r, all);
   for (const int t : r.threads) {
     check_at_least("threads", t, 1);
     if (t > 4096) throw error(fmt::format("threads must be at most 4096, is {}", t));
@@ -73,17 +78,21 @@ std::string granularity_of(const std::string& word, const backend_traits& b) {
 /// The points of one world, whose words `p` holds.
 world_plan points_of_world(point p, const run_request& r, const registry& all) {
   world_plan points;
+  const std::vector<backend_way> ways = ways_of(r, built_backends(r, p, all), all);
   for (const std::string& integrator : r.integrators)
     for (const std::string& order : r.orders)
-      for (const int M : r.M)
+      for (const cell_grid& grid : grids_of(r))
         for (const int threads : r.threads)
-          for (const std::string& backend : r.backends)
+          for (const auto& [backend, isa, block] : ways)
             for (const std::string& granularity : r.granularities) {
               const backend_traits& traits = all.find_backend(backend).traits;
               p.integrator = integrator;
               p.order = order;
+              p.grid = grid.name;
+              p.M = grid.M;
               p.backend = backend;
-              p.M = M;
+              p.isa = isa;
+              p.block = block;
               p.threads = traits.threads == runtime::serial ? 1 : threads;
               p.granularity = granularity_of(granularity, traits);
               if (std::ranges::find(points, p) == points.end()) points.push_back(p);
@@ -99,8 +108,6 @@ std::vector<world_plan> expand(const run_request& r, const registry& all) {
   p.case_name = r.case_name;
   p.dim = r.dim;
   p.dt = r.dt;
-  p.grid = r.grid;
-  p.isa = compiled_isa();
   for (const double dx : r.dx)
     for (const std::string& state : r.states)
       for (const std::string& precision : r.precisions)
@@ -113,7 +120,7 @@ std::vector<world_plan> expand(const run_request& r, const registry& all) {
             p.precision = precision;
             p.interaction = interaction;
             p.smoothing = smoothed ? smoothing : no_smoothing;
-            worlds.push_back(points_of_world(p, r, all));
+            if (world_plan points = points_of_world(p, r, all); !points.empty()) worlds.push_back(std::move(points));
           }
   return worlds;
 }

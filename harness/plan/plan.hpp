@@ -21,7 +21,10 @@ struct run_request {
   double H = 0;  ///< 0: 2 dx
   std::vector<std::string> orders{"lattice"}, precisions{"double"}, interactions{"ferrari09"},
       smoothings{"wendland_c2"}, integrators{"euler"}, granularities{"default"};
-  std::string grid = "hashed_grid", outside = "error";
+  std::vector<std::string> grids{"hashed_grid"};
+  std::vector<std::string> isas{"best"};    ///< of vector backends
+  std::vector<std::string> blocks{"auto"};  ///< of backends that go over blocks
+  std::string outside = "error";
   double dt = 1e-5;
   int steps = 5;
   int repetitions = 1;  ///< of each point in a round, that is in one process
@@ -42,8 +45,12 @@ inline constexpr std::string_view default_granularity = "default";
 /// What stands for the smoothing kernel of an interaction that takes none.
 inline constexpr std::string_view no_smoothing = "none";
 
-/// The points, grouped by world. A serial backend appears once per M, with 1 thread; an interaction that takes no
-/// smoothing kernel appears once.
+/// What stands for the blocks of a backend that has none.
+inline constexpr std::string_view no_block = "none";
+
+/// The points, grouped by world. A serial backend appears once per variant, with 1 thread; an interaction that takes no
+/// smoothing kernel appears once. A backend that was not built for a world's formula and precision is left out of it;
+/// check_request refuses a world that has none.
 std::vector<world_plan> expand(const run_request& r, const registry& all = registry::instance());
 
 /// The order in which repetition `repetition` of round `round` measures `n` points: a permutation that depends on

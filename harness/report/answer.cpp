@@ -10,6 +10,8 @@
 #include "harness/report/judged_entries.hpp"
 #include "harness/report/self_tests.hpp"
 #include "harness/report/text_table.hpp"
+#include "harness/rows/point_words.hpp"
+#include "harness/rows/variant_names.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -48,9 +50,17 @@ std::vector<const measured_point*> together(const measurements& all, std::size_t
   return std::ranges::max_element(rounds, {}, size)->second;
 }
 
-std::string words_of(const point& p) {
-  return fmt::format("{} with M = {} and {} thread{}", p.backend, p.M, p.threads, p.threads == 1 ? "" : "s");
-}
+/// Points in words, among those that they are compared with.
+class chosen_words {
+ public:
+  explicit chosen_words(const std::vector<const measured_point*>& candidates) {
+    for (const measured_point* p : candidates) names_.add(p->point);
+  }
+  std::string operator()(const point& p) const { return choice_words(p, names_.without_grid(p)); }
+
+ private:
+  variant_names names_;
+};
 
 struct host_words {
   std::string name, description;
@@ -97,16 +107,17 @@ const measured_point* naive_base(const measured_point& best, const std::vector<c
 }
 
 json tie_entry(const point& p) {
-  return {{"backend", p.backend}, {"M", p.M}, {"threads", p.threads}, {"granularity", p.granularity}};
+  return {{"backend", p.backend},         {"grid", p.grid}, {"M", m_or_null(p)}, {"threads", p.threads},
+          {"granularity", p.granularity}, {"isa", p.isa},   {"block", p.block}};
 }
 
-std::string base_text(const measured_point& best, const measured_point* base) {
+std::string base_text(const measured_point& best, const measured_point* base, const chosen_words& words_of) {
   if (base == nullptr) return "; no naive backend was measured beside it.";
   if (base == &best) return ". It is the fastest naive backend itself.";
   return fmt::format(", with {} {} ms.", words_of(base->point), ms(*median_of(*base, &phases::total_s)));
 }
 
-std::string ties_text(const std::vector<const measured_point*>& ties) {
+std::string ties_text(const std::vector<const measured_point*>& ties, const chosen_words& words_of) {
   std::vector<std::string> words;
   for (const measured_point* p : ties) words.push_back(words_of(p->point));
   return words.empty() ? "" : " No difference was resolved from " + first_few(words) + ".";
@@ -125,11 +136,15 @@ json answer(const measurements& all) {
   const ratio_estimate ratio = ratio_of(all, base, best, unsaid, &phases::total_s);
   const auto ties = ties_of(all, best, candidates, unsaid);
   const double time = *median_of(best, &phases::total_s);
+  const chosen_words words_of(candidates);
   json a = tie_entry(best.point);
   a["series"] = *main;
   a["time_s"] = time;
   a["base_backend"] = base.point.backend;
-  a["base_M"] = base.point.M;
+  a["base_grid"] = base.point.grid;
+  a["base_M"] = m_or_null(base.point);
+  a["base_isa"] = base.point.isa;
+  a["base_block"] = base.point.block;
   a["base_threads"] = base.point.threads;
   a["base_time_s"] = *median_of(base, &phases::total_s);
   a["speedup"] = ratio.value;
@@ -143,7 +158,7 @@ json answer(const measurements& all) {
   a["details"] =
       fmt::format("On {} a whole step of {} fluid particles (dx {}, {}, {}, {}) takes {} ms{}{}", host.description,
                   best.point.n_fluid, best.point.dx, best.point.state, best.point.precision, best.point.interaction,
-                  ms(time), base_text(best, naive), ties_text(ties));
+                  ms(time), base_text(best, naive, words_of), ties_text(ties, words_of));
   return a;
 }
 

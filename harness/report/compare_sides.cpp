@@ -11,6 +11,7 @@
 #include "harness/report/compared_points.hpp"
 #include "harness/report/report.hpp"
 #include "harness/report/text_table.hpp"
+#include "harness/rows/point_words.hpp"
 #include "harness/rows/reader.hpp"
 #include "harness/stats/holm.hpp"
 
@@ -109,10 +110,10 @@ struct compared {
 bool do_the_same(const compare_request& r, kind what, const measurements& all, const measured_point& p,
                  const measured_point& q) {
   point like = q.point;
-  if (what != kind::backends) {
-    like.isa = p.point.isa;  // a property of the build
-    return like == p.point;
-  }
+  // What the build was compiled for is no choice; two vector backends, or two builds of one, have the same.
+  if (!chooses_isa(p.point) || !chooses_isa(q.point)) like.isa = p.point.isa;
+  if (what != kind::backends) return like == p.point;
+  if (p.point.block == "none" || q.point.block == "none") like.block = p.point.block;
   if (p.series != q.series || p.point.backend != r.a || q.point.backend != r.b) return false;
   like.backend = r.a;
   like.granularity = p.point.granularity;
@@ -145,10 +146,16 @@ std::string rare_words(const point& p) {
                      p.dim);
 }
 
+/// What was chosen for a vector backend or one with blocks, beside the usual.
+std::string variant_of(const point& p) {
+  return (chooses_isa(p) ? " " + p.isa : "") + (p.block == "none" || p.block == "auto" ? "" : " " + p.block);
+}
+
 /// What a point is, in the words that tell the pairs apart.
 std::string place(const point& p, kind what, bool with_rare_words) {
-  return fmt::format("{}{} {} dx={} M={} threads={}{}", what == kind::backends ? "" : p.backend + " ", p.case_name,
-                     p.state, p.dx, p.M, p.threads, with_rare_words ? " " + rare_words(p) : "");
+  return fmt::format("{}{} {} dx={} {} threads={}{}{}", what == kind::backends ? "" : p.backend + " ", p.case_name,
+                     p.state, p.dx, cells_word(p), p.threads, variant_of(p),
+                     with_rare_words ? " " + rare_words(p) : "");
 }
 
 std::string table_of(const compare_request& r, kind what, const std::vector<compared>& pairs) {
@@ -212,8 +219,8 @@ std::string compare_sides(const compare_request& r) {
   const std::string differ = what == kind::backends ? "" : differences(r, a, other);
   const std::vector<compared> pairs = pairs_of(r, what, a, other);
   if (pairs.empty())
-    throw error(fmt::format("\"{}\" and \"{}\" have no point in common (same study, case, dx, M, threads{})", r.a, r.b,
-                            what == kind::backends ? "" : ", backend"));
+    throw error(fmt::format("\"{}\" and \"{}\" have no point in common (same study, case, dx, grid, M, threads{})", r.a,
+                            r.b, what == kind::backends ? "" : ", backend"));
   std::string text = fmt::format("A: {}\nB: {}\n", r.a, r.b);
   if (std::ranges::any_of(pairs, [](const compared& c) { return c.ratio.pairs == 0; }))
     text += wrapped("measured apart, so not paired: what disturbed one of them alone is in the ratio");

@@ -1,6 +1,10 @@
 #include "harness/report/compared_points.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+
+#include "harness/report/self_tests.hpp"
+#include "sum/registry.hpp"
 
 namespace pairsum::harness {
 
@@ -21,6 +25,12 @@ ratio_estimate ratio_of(const measurements& all, const measured_point& base, con
   return unpaired_ratio(values_of(base, phase), values_of(other, phase));
 }
 
+bool chooses_isa(const point& p) {
+  const std::string backend = working_backend(p.backend);
+  return std::ranges::any_of(registry::instance().backends(),
+                             [&](const backend_entry& b) { return b.traits.name == backend && b.traits.vector; });
+}
+
 bool is_timed(const measured_point& p) { return comparable_time(p, &phases::sum_s).has_value(); }
 
 bool has_best_granularity(const measurements& all, const measured_point& p, std::optional<double> phases::*phase) {
@@ -36,6 +46,8 @@ bool has_best_granularity(const measurements& all, const measured_point& p, std:
   return true;
 }
 
+json m_or_null(const point& p) { return p.M > 0 ? json(p.M) : json(nullptr); }
+
 json place_of(const measured_point& p) {
   return {{"series", p.series},
           {"case", p.point.case_name},
@@ -44,7 +56,9 @@ json place_of(const measured_point& p) {
           {"backend", p.point.backend},
           {"grid", p.point.grid},
           {"granularity", p.point.granularity},
-          {"M", p.point.M},
+          {"isa", p.point.isa},
+          {"block", p.point.block},
+          {"M", m_or_null(p.point)},
           {"threads", p.point.threads}};
 }
 

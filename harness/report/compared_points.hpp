@@ -23,7 +23,15 @@ bool is_timed(const measured_point& p);
 bool has_best_granularity(const measurements& all, const measured_point& p,
                           std::optional<double> phases::*phase = &phases::sum_s);
 
-/// The keys of an entry that say where a point stands: series, case, state, dx, backend, grid, granularity, M, threads.
+/// A point's M, null where its grid takes none.
+nlohmann::json m_or_null(const point& p);
+
+/// Is the point's isa a choice, of a vector backend, and not what its build was compiled for? (That of a backend which
+/// this build does not know is none.)
+bool chooses_isa(const point& p);
+
+/// The keys of an entry that say where a point stands: series, case, state, dx, backend, grid, granularity, isa, block,
+/// M, threads.
 nlohmann::json place_of(const measured_point& p);
 
 /// The median of a phase or null.

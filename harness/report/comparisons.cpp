@@ -37,24 +37,29 @@ json peak_scaling(const measurements& all, const measured_point& p, double peak_
   return one != nullptr && own != nullptr ? json(own->*peak / (one->*peak)) : json(nullptr);
 }
 
-/// The part of a backend's name behind "naive", "symmetric": "", "_omp" or "_tbb".
-const char* const runtime_suffixes[] = {"", "_omp", "_tbb"};
-const char* const runtime_names[] = {"serial", "omp", "tbb"};
+/// The gather and the symmetric sum that differ in nothing else, by runtime.
+struct algorithm_pair {
+  const char *naive, *symmetric, *runtime;
+};
+constexpr algorithm_pair algorithm_pairs[] = {{"naive", "symmetric", "serial"},
+                                              {"naive_omp", "symmetric_omp", "omp"},
+                                              {"naive_tbb", "symmetric_tbb", "tbb"},
+                                              {"naive_tiles_omp", "tiles_omp", "omp"}};
 
 /// May they stand for naive over symmetric: each M with itself, and the talk's second definition, naive at M = 7 over
 /// symmetric at M = 6?
 bool is_algorithm_pair(const measurements& all, const measured_point& naive, const measured_point& symmetric) {
   const point &p = naive.point, &q = symmetric.point;
   return naive.series == symmetric.series && p.grid == q.grid && p.threads == q.threads &&
-         (p.M == q.M || (p.M == 7 && q.M == 6)) && has_best_granularity(all, naive) &&
+         (p.M == q.M || (p.M == 7 && q.M == 6)) && p.isa == q.isa && has_best_granularity(all, naive) &&
          has_best_granularity(all, symmetric);
 }
 
-json algorithm_entry(const measured_point& base, const measured_point& own, int runtime) {
+json algorithm_entry(const measured_point& base, const measured_point& own, const char* runtime) {
   json entry = place_of(own);
-  entry["runtime"] = runtime_names[runtime];
+  entry["runtime"] = runtime;
   entry["base_backend"] = base.point.backend;
-  entry["base_M"] = base.point.M;
+  entry["base_M"] = m_or_null(base.point);
   entry["base_granularity"] = base.point.granularity;
   entry["base_time_s"] = time_or_null(base, &phases::sum_s);
   entry["time_s"] = time_or_null(own, &phases::sum_s);
@@ -93,13 +98,12 @@ json thread_speedups(const measurements& all, std::vector<std::string>& caveats)
 
 json algorithm_speedups(const measurements& all, std::vector<std::string>& caveats) {
   judged_entries entries;
-  for (int runtime = 0; runtime < 3; ++runtime)
+  for (const algorithm_pair& pair : algorithm_pairs)
     for (const measured_point& base : all.points) {
-      if (base.point.backend != std::string("naive") + runtime_suffixes[runtime]) continue;
+      if (base.point.backend != pair.naive) continue;
       for (const measured_point& own : all.points)
-        if (own.point.backend == std::string("symmetric") + runtime_suffixes[runtime] &&
-            is_algorithm_pair(all, base, own))
-          entries.add(algorithm_entry(base, own, runtime), "speedup", ratio_of(all, base, own, caveats));
+        if (own.point.backend == pair.symmetric && is_algorithm_pair(all, base, own))
+          entries.add(algorithm_entry(base, own, pair.runtime), "speedup", ratio_of(all, base, own, caveats));
     }
   return std::move(entries).judged();
 }
@@ -133,7 +137,7 @@ json compiler_comparisons(const measurements& all, std::vector<std::string>& cav
     for (const measured_point& own : all.points) {
       const series &a = all.series[base.series], &b = all.series[own.series];
       point like = own.point;
-      like.isa = base.point.isa;  // a property of the build
+      if (!chooses_isa(like)) like.isa = base.point.isa;  // a property of the build
       if (a.build != 0 || b.build == 0 || a.study != b.study || !(base.point == like)) continue;
       if (!is_timed(base) || !is_timed(own)) continue;
       json entry = place_of(own);

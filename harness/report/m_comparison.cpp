@@ -24,7 +24,7 @@ const measured_point* best_M(const measurements& all, const measured_point& p) {
     point like = q.point;
     like.M = p.point.M;
     const auto time = comparable_time(q, &phases::total_s);
-    if (q.series != p.series || !(like == p.point) || !time) continue;
+    if (q.point.M == 0 || q.series != p.series || !(like == p.point) || !time) continue;
     if (best == nullptr || *time < *median_of(*best, &phases::total_s)) best = &q;
   }
   return best;
@@ -57,6 +57,7 @@ json useful_pair_ratio(const measured_point& p) {
 json m_comparisons(const measurements& all, std::vector<std::string>& caveats) {
   judged_entries entries;
   for (const measured_point& p : all.points) {
+    if (p.point.M == 0) continue;
     json entry = m_entry(p);
     ratio_estimate best_over_own;
     const measured_point* const best = best_M(all, p);
@@ -72,7 +73,7 @@ json m_comparisons(const measurements& all, std::vector<std::string>& caveats) {
   json judged = std::move(entries).judged();
   // Neighbours differ in M.
   std::stable_sort(judged.begin(), judged.end(), [](const json& a, const json& b) {
-    for (const char* key : {"series", "backend", "grid", "granularity", "threads"})
+    for (const char* key : {"series", "backend", "grid", "granularity", "isa", "block", "threads"})
       if (a[key] != b[key]) return a[key] < b[key];
     return a["M"] < b["M"];
   });

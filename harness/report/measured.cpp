@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "harness/report/builds.hpp"
+#include "harness/report/compared_points.hpp"
 #include "harness/report/step_means.hpp"
 #include "harness/report/study_facts.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 
 auto order_of(const point& p) {
   return std::tie(p.case_name, p.state, p.dx, p.H, p.n_fluid, p.n_boundary, p.order, p.dim, p.precision, p.interaction,
-                  p.smoothing, p.integrator, p.dt, p.isa, p.backend, p.grid, p.granularity, p.M, p.threads);
+                  p.smoothing, p.integrator, p.dt, p.backend, p.grid, p.isa, p.block, p.granularity, p.M, p.threads);
 }
 
 struct point_less {
@@ -51,12 +52,19 @@ std::size_t series_of(measurements& all, const group_key& key, const builds& kno
   common.backend.clear();
   common.grid.clear();
   common.granularity.clear();
+  common.isa.clear();
+  common.block.clear();
   common.M = 0;
   common.threads = 0;
+  const std::string isa = chooses_isa(key.point) ? "" : key.point.isa;  // of the build
   for (std::size_t i = 0; i < all.series.size(); ++i) {
-    const series& s = all.series[i];
-    if (s.study == key.study && s.build == key.build && s.seed == key.seed && s.common == common) return i;
+    series& s = all.series[i];
+    common.isa = s.common.isa;
+    if (s.study != key.study || s.build != key.build || s.seed != key.seed || !(s.common == common)) continue;
+    if (s.common.isa.empty()) s.common.isa = isa;
+    if (isa.empty() || s.common.isa == isa) return i;
   }
+  common.isa = isa;
   all.series.push_back(
       {key.study, key.build, known.first(key.build).environment, build_name(known.first(key.build)), key.seed, common});
   return all.series.size() - 1;

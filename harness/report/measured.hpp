@@ -26,7 +26,8 @@ struct round_value {
 };
 
 /// Points that may stand in one table: the same study, machine and build, and the same problem;
-/// they differ in backend, grid, M and threads only, which are empty in `common`.
+/// they differ in backend, grid, block, granularity, M and threads only, which are empty in `common`, and in the isa of
+/// vector backends; `common` has that of the build, empty if no other backend was measured.
 struct series {
   std::string study;
   std::size_t build = 0;              ///< which of the different machines and builds
@@ -92,7 +93,7 @@ std::optional<double> comparable_time(const measured_point& point, std::optional
 /// What the machine does at best, measured by the point's build with so many threads; null if that was not measured.
 const peak_row* peak_of(const measurements& all, const measured_point& point, int threads);
 
-/// Backend, M and threads in one text: "symmetric_omp M=6 threads=2".
+/// Backend, cells and threads in one text: "symmetric_omp M=6 threads=2".
 std::string label(const point& p);
 
 /// The same for a caveat: with several series, the problem too.

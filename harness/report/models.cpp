@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "harness/model/cost.hpp"
-#include "harness/self_test/entries.hpp"
+#include "harness/report/self_tests.hpp"
 #include "sum/registry.hpp"
 
 namespace pairsum::harness {
@@ -19,13 +19,6 @@ std::uint64_t largest_cache(const measurements& all, const std::string& environm
   return largest;
 }
 
-/// The backend that does the work: that of a self-test copy is its base.
-std::string working_backend(const std::string& word) {
-  for (const self_test_entry& e : self_test_entries())
-    if (e.word == word) return std::string(e.base);
-  return word;
-}
-
 formula_costs costs_of(const point& p) {
   setup s;
   s.interaction = p.interaction;
@@ -33,7 +26,6 @@ formula_costs costs_of(const point& p) {
   s.precision = p.precision;
   s.grid = p.grid;
   s.dim = p.dim;
-  s.M = p.M;
   s.constants.H = p.H;
   s.omega_low.assign(static_cast<std::size_t>(p.dim), 0.0);
   s.omega_high.assign(static_cast<std::size_t>(p.dim), 1.0);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "harness/report/measured.hpp"
+#include "harness/rows/point_words.hpp"
 #include "harness/stats/median.hpp"
 
 namespace pairsum::harness {
@@ -38,9 +39,7 @@ const peak_row* peak_of(const measurements& all, const measured_point& point, in
   return best;
 }
 
-std::string label(const point& p) {
-  return p.backend + " M=" + std::to_string(p.M) + " threads=" + std::to_string(p.threads);
-}
+std::string label(const point& p) { return place_words(p); }
 
 std::string label(const measurements& all, const measured_point& p) {
   if (all.series.size() < 2) return label(p.point);

@@ -56,6 +56,17 @@ std::string list_of(const std::vector<std::string>& texts) {
 
 std::string threads_text(int n) { return fmt::format("{} thread{}", n, n == 1 ? "" : "s"); }
 
+/// "M = 6", or "on compact_grid" where the grid takes no M.
+std::string cells(const json& place, const char* key = "M") {
+  return place.at(key).is_null() ? "on " + word(place.at("grid")) : "M = " + place.at(key).dump();
+}
+
+/// A backend's name without its runtime.
+std::string algorithm_of(const json& e, const char* key) {
+  const std::string name = word(e.at(key)), runtime = "_" + word(e.at("runtime"));
+  return name.ends_with(runtime) ? name.substr(0, name.size() - runtime.size()) : name;
+}
+
 /// Is the symmetric sum twice as fast? By the entries at equal M and the talk's second definition, on the most threads.
 void ask_twice(const json& summary, std::size_t series, json& out) {
   std::vector<json> entries = of_series(summary, "algorithm_speedup", series);
@@ -67,8 +78,8 @@ void ask_twice(const json& summary, std::size_t series, json& out) {
   for (const json& e : entries) {
     least = std::min(least, e.at("speedup").get<double>());
     most = std::max(most, e.at("speedup").get<double>());
-    texts.push_back(fmt::format("{} naive M = {} over symmetric M = {}: {}", runtime_word(e), e.at("base_M").get<int>(),
-                                e.at("M").get<int>(), with_bounds(e, "speedup")));
+    texts.push_back(fmt::format("{} {} {} over {} {}: {}", runtime_word(e), algorithm_of(e, "base_backend"),
+                                cells(e, "base_M"), algorithm_of(e, "backend"), cells(e), with_bounds(e, "speedup")));
   }
   const auto reaches = [](const json& e, double goal) {  // within its interval, if it has one
     return (e.at("high").is_number() ? e.at("high") : e.at("speedup")).get<double>() >= goal;
@@ -97,9 +108,9 @@ void ask_scaling(const json& summary, std::size_t series, json& out) {
   json machine = nullptr;
   for (const json& e : entries) {
     const std::string backend = word(e.at("backend"));
-    texts.push_back(fmt::format("{} M = {}: {}", backend, e.at("M").get<int>(), with_bounds(e, "speedup")));
+    texts.push_back(fmt::format("{} {}: {}", backend, cells(e), with_bounds(e, "speedup")));
     if (backend.starts_with("naive")) by_kind[false].push_back(e.at("speedup"));
-    if (backend.starts_with("symmetric")) by_kind[true].push_back(e.at("speedup"));
+    if (backend.starts_with("symmetric") || backend.starts_with("tiles")) by_kind[true].push_back(e.at("speedup"));
     machine = e.at("machine_flops_scaling");
   }
   if (by_kind.size() < 2) return;
@@ -160,8 +171,9 @@ std::map<std::string, over_M> entries_over_M(const json& summary, std::size_t se
   std::map<std::string, over_M> alike;
   for (const json& e : of_series(summary, "m_comparison", series))
     if (e.at("best_M").is_number())
-      alike[json::array({e.at("backend"), e.at("grid"), e.at("granularity"), e.at("threads")}).dump()]
-           [e.at("M").get<int>()] = e;
+      alike[json::array(
+                {e.at("backend"), e.at("grid"), e.at("granularity"), e.at("isa"), e.at("block"), e.at("threads")})
+                .dump()][e.at("M").get<int>()] = e;
   std::map<std::string, over_M> chosen;
   for (const auto& [key, by_M] : alike) {
     if (by_M.size() < 2) continue;
@@ -221,11 +233,12 @@ void ask_bound(const json& summary, std::size_t series, json& out) {
   const json &model = best.at("model"), &p = best.at("point");
   out.push_back(
       {{"question", "How far is that from what the machine can do?"},
-       {"answer", fmt::format("The nearest is {} with M = {} and {}: {} could not be done in less than {} ms, and that "
-                              "is {:.1f} % of the time it takes.",
-                              word(p.at("backend")), p.at("M").get<int>(), threads_text(p.at("threads")),
-                              model.at("limited_by") == "flops" ? "its arithmetic" : "its memory traffic",
-                              ms(model.at("bound_s")), 100 * model.at("share_of_bound").get<double>())}});
+       {"answer",
+        fmt::format("The nearest is {} {}{} and {}: {} could not be done in less than {} ms, and that "
+                    "is {:.1f} % of the time it takes.",
+                    word(p.at("backend")), p.at("M").is_null() ? "" : "with ", cells(p), threads_text(p.at("threads")),
+                    model.at("limited_by") == "flops" ? "its arithmetic" : "its memory traffic",
+                    ms(model.at("bound_s")), 100 * model.at("share_of_bound").get<double>())}});
 }
 
 }  // namespace

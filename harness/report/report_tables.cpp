@@ -12,10 +12,13 @@ report_table algorithm_table(const json& summary, std::size_t series) {
   text_table table({"runtime", "threads", "backend", "time ms", "base", "base ms", "speedup", "[low, high]"}, 3);
   const point_names names(summary);
   for (const json& e : entries(summary, "algorithm_speedup", series)) {
-    const json base{{"backend", e["base_backend"]}, {"grid", e["grid"]}, {"granularity", e["base_granularity"]}};
-    table.add({e["runtime"], whole(e["threads"]), fmt::format("{} M={}", names(e), e["M"].get<int>()),
-               ms(number(e["time_s"])), fmt::format("{} M={}", names(base), e["base_M"].get<int>()),
-               ms(number(e["base_time_s"])), fixed(e["speedup"], 3), bounds(e)});
+    const json base{{"backend", e["base_backend"]},
+                    {"grid", e["grid"]},
+                    {"isa", e["isa"]},
+                    {"block", "none"},
+                    {"granularity", e["base_granularity"]}};
+    table.add({e["runtime"], whole(e["threads"]), names(e) + m_text(e["M"]), ms(number(e["time_s"])),
+               names(base) + m_text(e["base_M"]), ms(number(e["base_time_s"])), fixed(e["speedup"], 3), bounds(e)});
   }
   return {"Algorithm speedup: summation time of the base over that of the backend, at the same number of threads",
           table};

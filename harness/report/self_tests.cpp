@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "harness/report/compared_points.hpp"
 #include "harness/report/judged_entries.hpp"
+#include "harness/report/table_cells.hpp"
 #include "harness/self_test/entries.hpp"
 #include "harness/stats/ratio.hpp"
 
@@ -28,9 +30,11 @@ ratio_estimate own_over_base(const measured_point& own, const measured_point& ba
 }
 
 json entry_of(const self_test_entry& e, const point& p) {
-  return {{"what", e.what}, {"backend", e.word}, {"base_backend", e.base}, {"case", p.case_name}, {"state", p.state},
-          {"dx", p.dx},     {"M", p.M},          {"threads", p.threads},   {"expected", nullptr}, {"ratio", nullptr},
-          {"low", nullptr}, {"high", nullptr},   {"confidence", nullptr},  {"holds", false}};
+  return {{"what", e.what},   {"backend", e.word}, {"base_backend", e.base}, {"case", p.case_name},
+          {"state", p.state}, {"dx", p.dx},        {"grid", p.grid},         {"isa", p.isa},
+          {"block", p.block}, {"M", m_or_null(p)}, {"threads", p.threads},   {"expected", nullptr},
+          {"ratio", nullptr}, {"low", nullptr},    {"high", nullptr},        {"confidence", nullptr},
+          {"holds", false}};
 }
 
 void judge_ratio(json& entry, double expected, const ratio_estimate& r) {
@@ -61,6 +65,12 @@ bool is_self_test(const std::string& backend) {
   return std::ranges::any_of(self_test_entries(), [&](const self_test_entry& e) { return e.word == backend; });
 }
 
+std::string working_backend(const std::string& backend) {
+  for (const self_test_entry& e : self_test_entries())
+    if (e.word == backend) return std::string(e.base);
+  return backend;
+}
+
 json self_tests(const measurements& all, std::vector<std::string>& caveats) {
   json entries = json::array();
   std::size_t ratios = 0;
@@ -74,10 +84,9 @@ json self_tests(const measurements& all, std::vector<std::string>& caveats) {
         entry["text"] = "it got a time, although it is wrong";
       } else {
         for (const measured_point& base : all.points) {
-          if (base.series != own.series || base.point.backend != e.base || base.point.grid != own.point.grid ||
-              base.point.granularity != own.point.granularity || base.point.M != own.point.M ||
-              base.point.threads != own.point.threads)
-            continue;
+          point like = own.point;
+          like.backend = e.base;
+          if (base.series != own.series || !(base.point == like)) continue;
           judge_ratio(entry, *e.expected_ratio(), own_over_base(own, base, level));
         }
       }
@@ -94,9 +103,8 @@ json self_tests(const measurements& all, std::vector<std::string>& caveats) {
   for (json& entry : entries) {
     if (!entry.contains("text")) entry["text"] = "its base was not measured";
     if (!entry["holds"])
-      caveats.push_back(fmt::format("self-test {} M={} threads={} does not hold: {}",
-                                    entry["backend"].get<std::string>(), entry["M"].get<int>(),
-                                    entry["threads"].get<int>(), entry["text"].get<std::string>()));
+      caveats.push_back(fmt::format("self-test {}{} threads={} does not hold: {}", entry["backend"].get<std::string>(),
+                                    m_text(entry["M"]), entry["threads"].get<int>(), entry["text"].get<std::string>()));
   }
   return entries;
 }

@@ -16,4 +16,7 @@ nlohmann::json self_tests(const measurements& all, std::vector<std::string>& cav
 /// Is the backend one of them?
 bool is_self_test(const std::string& backend);
 
+/// The backend that does the work: of such a copy its base, else the backend itself.
+std::string working_backend(const std::string& backend);
+
 }  // namespace pairsum::harness

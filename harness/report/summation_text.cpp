@@ -3,6 +3,7 @@
 
 #include "harness/report/report_tables.hpp"
 #include "harness/report/table_cells.hpp"
+#include "harness/rows/point_words.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -37,7 +38,7 @@ std::string summation_text(const json& summary, std::size_t series) {
     const std::string name = names(p);
     name_width = std::max(name_width, name.size());
     threads.insert(p["threads"].get<int>());
-    rows[{name, p["M"].get<int>()}][p["threads"].get<int>()] = time_cell(entry, own);
+    rows[{name, p["M"].is_null() ? 0 : p["M"].get<int>()}][p["threads"].get<int>()] = time_cell(entry, own);
   }
   const std::vector<int> columns(threads.begin(), threads.end());
   const std::size_t fit = std::max<std::size_t>(1, (120 - name_width - 5) / 31);
@@ -51,7 +52,7 @@ std::string summation_text(const json& summary, std::size_t series) {
     for (std::size_t c = first; c < last; ++c) header.push_back(fmt::format("threads {}", columns[c]));
     text_table table(header, 2);
     for (const auto& row : rows) {
-      std::vector<std::string> above{row.first.first, std::to_string(row.first.second)};
+      std::vector<std::string> above{row.first.first, m_word(row.first.second)};
       std::vector<std::string> below{"", ""};
       for (std::size_t c = first; c < last; ++c) {
         const auto cell = row.second.find(columns[c]);

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <vector>
+
+#include "harness/rows/variant_names.hpp"
 
 /// How values of a summary look in tables.
 namespace pairsum::harness {
@@ -41,33 +41,34 @@ inline std::vector<json> entries(const json& summary, const char* name, std::siz
   return found;
 }
 
-inline std::string backend_name(const json& point) {
-  const std::string name = point.at("backend"), grid = point.at("grid");
-  return grid == "hashed_grid" || grid.empty() ? name : name + "/" + grid;
-}
-
 inline bool same_point(const json& a, const json& b) {
-  for (const char* key : {"backend", "grid", "granularity", "M", "threads"})
+  for (const char* key : {"backend", "grid", "granularity", "isa", "block", "M", "threads"})
     if (a.at(key) != b.at(key)) return false;
   return true;
 }
 
-/// Names of points: the backend's, with the granularity if it was measured with several.
+/// The names of the points of a summary; a table's entry has its keys, too.
 class point_names {
  public:
   explicit point_names(const json& summary) {
-    for (const json& e : summary.at("points"))
-      granularities_[backend_name(e["point"])].insert(e["point"]["granularity"].get<std::string>());
+    for (const json& e : summary.at("points")) names_.add(words(e.at("point")));
   }
-  std::string operator()(const json& point) const {
-    const std::string name = backend_name(point);
-    const auto at = granularities_.find(name);
-    const bool several = at != granularities_.end() && at->second.size() > 1;
-    return several ? name + " " + point.at("granularity").get<std::string>() : name;
-  }
+  std::string operator()(const json& place) const { return names_(words(place)); }
 
  private:
-  std::map<std::string, std::set<std::string>> granularities_;
+  static point words(const json& place) {
+    point p;
+    p.backend = place.at("backend");
+    p.grid = place.at("grid");
+    p.isa = place.at("isa");
+    p.block = place.at("block");
+    p.granularity = place.at("granularity");
+    return p;
+  }
+  variant_names names_;
 };
+
+/// " M=6", or nothing where the grid takes no M.
+inline std::string m_text(const json& M) { return M.is_null() ? "" : " M=" + M.dump(); }
 
 }  // namespace pairsum::harness

@@ -4,6 +4,7 @@
 
 #include "harness/report/report_tables.hpp"
 #include "harness/report/table_cells.hpp"
+#include "harness/rows/point_words.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -33,11 +34,12 @@ std::string title(const json& s) {
 }
 
 std::string details(const json& summary, const json& s) {
-  std::string text = fmt::format(
-      "{} fluid and {} boundary particles; study {}, order {}, {}D, {}, {}, {}, {}, dt {}, isa {}", whole(s["n_fluid"]),
-      whole(s["n_boundary"]), s["study"].get<std::string>(), s["order"].get<std::string>(), whole(s["dim"]),
-      s["precision"].get<std::string>(), s["interaction"].get<std::string>(), s["smoothing"].get<std::string>(),
-      s["integrator"].get<std::string>(), number(s["dt"]), s["isa"].get<std::string>());
+  std::string text = fmt::format("{} fluid and {} boundary particles; study {}, order {}, {}D, {}, {}, {}, {}, dt {}{}",
+                                 whole(s["n_fluid"]), whole(s["n_boundary"]), s["study"].get<std::string>(),
+                                 s["order"].get<std::string>(), whole(s["dim"]), s["precision"].get<std::string>(),
+                                 s["interaction"].get<std::string>(), s["smoothing"].get<std::string>(),
+                                 s["integrator"].get<std::string>(), number(s["dt"]),
+                                 s["isa"].is_null() ? "" : ", isa " + s["isa"].get<std::string>());
   for (const json& e : summary.at("environments"))
     if (e["environment"] == s["environment"]) {
       text += fmt::format("; host {}, {} cores, {}, git {}{}", e["host"].get<std::string>(), whole(e["cores"]),
@@ -60,10 +62,9 @@ std::string failed_points(const json& summary) {
   std::string out = "Failed points: these rows have no passed verification and are in no table\n";
   for (const json& f : summary["failed"]) {
     const json& p = f.at("point");
-    out += wrapped(fmt::format("  {} M={} threads={} ({}, {}, dx {}, study {}): {} rows: {}", backend_name(p),
-                               whole(p["M"]), whole(p["threads"]), p["case"].get<std::string>(),
-                               p["state"].get<std::string>(), number(p["dx"]), f["study"].get<std::string>(),
-                               whole(f["rows"]), f["error"].get<std::string>()));
+    out += wrapped(fmt::format("  {} ({}, {}, dx {}, study {}): {} rows: {}", place_words(p.get<point>()),
+                               p["case"].get<std::string>(), p["state"].get<std::string>(), number(p["dx"]),
+                               f["study"].get<std::string>(), whole(f["rows"]), f["error"].get<std::string>()));
   }
   return out + "\n";
 }

@@ -44,10 +44,11 @@ point read_point(fields from) {
   p.dt = from.number("dt");
   p.backend = from.text("backend");
   p.grid = from.text("grid");
-  p.M = from.integer("M", 0);
+  p.M = from.is_null("M") ? 0 : from.integer("M", 1);
   p.threads = from.integer("threads", 1);
   p.granularity = from.text("granularity");
   p.isa = from.text("isa");
+  if (from.has("block")) p.block = from.text("block");  // rows of before there were blocks have none
   from.finish();
   return p;
 }
@@ -123,10 +124,11 @@ void to_json(json& j, const point& p) {
        {"dt", finite(p.dt)},
        {"backend", p.backend},
        {"grid", p.grid},
-       {"M", p.M},
+       {"M", p.M > 0 ? json(p.M) : json(nullptr)},
        {"threads", p.threads},
        {"granularity", p.granularity},
-       {"isa", p.isa}};
+       {"isa", p.isa},
+       {"block", p.block}};
 }
 
 void to_json(json& j, const phases& p) {

@@ -32,10 +32,11 @@ struct point {
   double dt = 0;  ///< time step [s]
   std::string backend;
   std::string grid;
-  int M = 0;
+  int M = 0;  ///< 0 (null in JSON) where the grid takes none
   int threads = 1;
-  std::string granularity;  ///< how its loops are shared out, "dynamic:32"; "none" for serial backends
-  std::string isa;
+  std::string granularity;     ///< how its loops are shared out, "dynamic:32"; "none" for serial backends
+  std::string isa;             ///< that a vector backend used; for the others what the build was compiled for
+  std::string block = "none";  ///< blocks of cells, "auto" or "slab:4"; "none" for backends without
   bool operator==(const point&) const = default;
 };
 

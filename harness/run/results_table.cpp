@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <tuple>
 
+#include "harness/rows/point_words.hpp"
+#include "harness/rows/variant_names.hpp"
 #include "harness/stats/median.hpp"
 
 namespace pairsum::harness {
@@ -54,13 +55,10 @@ std::string results_table(const std::vector<sample>& samples) {
   std::vector<collected> all = by_point(samples);
   std::ranges::sort(all, {}, [](const collected& c) {
     const point& p = c.what;
-    return std::tuple(words_of(p), p.dx, p.state, p.backend, p.granularity, p.M, p.threads);
+    return std::tuple(words_of(p), p.dx, p.state, p.backend, p.grid, p.isa, p.block, p.granularity, p.M, p.threads);
   });
-  std::map<std::string, std::set<std::string>> granularities;
-  for (const collected& c : all) granularities[c.what.backend].insert(c.what.granularity);
-  const auto name = [&](const point& p) {
-    return granularities.at(p.backend).size() > 1 ? p.backend + " " + p.granularity : p.backend;
-  };
+  variant_names name;
+  for (const collected& c : all) name.add(c.what);
   std::size_t width = 16;
   for (const collected& c : all) width = std::max(width, name(c.what).size() + 1);
   std::string text =
@@ -73,8 +71,8 @@ std::string results_table(const std::vector<sample>& samples) {
       heading = words_of(c.what);
       text += heading + "\n";
     }
-    text += fmt::format("{:<{}}{:>10}{:>11}{:>4}{:>4}{:>7}", name(c.what), width, c.what.dx, c.what.state, c.what.M,
-                        c.what.threads, c.rounds.size());
+    text += fmt::format("{:<{}}{:>10}{:>11}{:>4}{:>4}{:>7}", name(c.what), width, c.what.dx, c.what.state,
+                        m_word(c.what.M), c.what.threads, c.rounds.size());
     if (!c.error.empty()) {
       text += "  FAILED: " + c.error + "\n";
       continue;

@@ -11,6 +11,7 @@
 #include "harness/measure/memory.hpp"
 #include "harness/measure/worker_team.hpp"
 #include "harness/model/peaks.hpp"
+#include "harness/rows/point_words.hpp"
 #include "harness/rows/reader.hpp"
 #include "harness/rows/writer.hpp"
 #include "harness/run/interrupt.hpp"
@@ -22,9 +23,7 @@
 namespace pairsum::harness {
 namespace {
 
-std::string label(const point& p) {
-  return fmt::format("{} dx={} {} M={} threads={}", p.backend, p.dx, p.state, p.M, p.threads);
-}
+std::string label(const point& p) { return fmt::format("{} dx={} {} {}", place_words(p), p.dx, p.state, p.isa); }
 
 /// A part's points with the worlds they live in.
 class measured_part {

@@ -12,9 +12,9 @@
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
 #include "harness/run/interrupt.hpp"
+#include "harness/run/point_setup.hpp"
 #include "integrators/integrator.hpp"
 #include "sum/check.hpp"
-#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 
@@ -27,21 +27,21 @@ world_particles::world_particles(const run_request& r, const point& any)
 world::world(const measuring& with, const run_request& r, const point& any,
              std::shared_ptr<const world_particles> particles)
     : with_(with), request_(r), any_(any), particles_(std::move(particles)) {
-  with_.all.make_summation(setup_for(any))->check(particles_->initial.particles);
+  with_.all.make_summation(setup_of_point(any, particles_->initial, with_.all))->check(particles_->initial.particles);
 }
 
 /// Everything that particles, reference and trajectory depend on, and the build.
 std::string world::key() const {
-  return nlohmann::json{with_.build,      request_.case_name, request_.dim, request_.H, request_.outside,
-                        request_.seed,    request_.dt,        any_.dx,      any_.state, any_.precision,
-                        any_.interaction, any_.smoothing,     any_.grid}
+  return nlohmann::json{with_.build,      request_.case_name, request_.dim,     request_.H,
+                        request_.outside, request_.seed,      request_.dt,      any_.dx,
+                        any_.state,       any_.precision,     any_.interaction, any_.smoothing}
       .dump();
 }
 
 void world::make_reference() {
   const worker_team workers(runtime::omp, usable_cores(), &with_.binding);
-  verifier_ = std::make_unique<verifier>(with_.all, setup_for(any_), particles_->initial.particles, workers.get(),
-                                         with_.store, key());
+  verifier_ = std::make_unique<verifier>(with_.all, setup_of_point(any_, particles_->initial, with_.all),
+                                         particles_->initial.particles, workers.get(), with_.store, key());
   recall_work();
 }
 
@@ -59,17 +59,6 @@ void world::remember() {
   with_.store->save(key() + "/work", nlohmann::json(work_).dump());
 }
 
-setup world::setup_for(const point& p) const {
-  setup s = setup_of(particles_->initial);
-  s.backend = p.backend;
-  s.interaction = p.interaction;
-  s.smoothing = p.smoothing;
-  s.precision = p.precision;
-  s.grid = p.grid;
-  s.M = p.M;
-  return s;
-}
-
 void world::complete(point& p) const {
   p.H = particles_->initial.H;
   p.n_fluid = particles_->initial.particles.count(particle_kind::fluid);
@@ -77,7 +66,7 @@ void world::complete(point& p) const {
 }
 
 work_row world::work_of(const point& p, summation& s) {
-  const auto [at, is_new] = work_.try_emplace(fmt::format("{} {}", p.backend, p.M));
+  const auto [at, is_new] = work_.try_emplace(fmt::format("{} {} {} {}", p.backend, p.grid, p.M, p.block));
   if (is_new) {
     const work_counts w = s.count_work();
     if (!unfolded_) unfolded_ = s.count_unfolded_tests();
@@ -130,7 +119,7 @@ void add_to(std::optional<counters_row>& a, const counters::counts& b) {
 
 world::result world::measure(const point& p, int steps) {
   result out;
-  const auto summation = with_.all.make_summation(setup_for(p));
+  const auto summation = with_.all.make_summation(setup_of_point(p, particles_->initial, with_.all));
   const runtime kind = summation->traits().threads;
   const worker_team workers(kind, p.threads, &with_.binding);
   const team t = workers.get().with(parse_granularity(p.granularity, kind));

@@ -70,7 +70,6 @@ class world {
   std::size_t dropped() const { return particles_->dropped; }
 
  private:
-  setup setup_for(const point& p) const;
   work_row work_of(const point& p, summation& s);
 
   std::string key() const;
@@ -81,7 +80,7 @@ class world {
   point any_;
   std::shared_ptr<const world_particles> particles_;
   std::unique_ptr<verifier> verifier_;
-  std::map<std::string, work_row> work_;  ///< by backend and M
+  std::map<std::string, work_row> work_;  ///< by backend, grid, M and block
   std::optional<unfolded_tests> unfolded_;
 };
 

@@ -3,7 +3,7 @@
 # shellcheck disable=SC2034  # the lists are used by name, see packages_of
 
 build_packages=(g++ cmake make ninja-build pkg-config git libbenchmark-dev libtbb-dev libeigen3-dev
-  nlohmann-json3-dev libhwloc-dev libcli11-dev libfmt-dev)
+  nlohmann-json3-dev libhwloc-dev libcli11-dev libfmt-dev libhwy-dev)
 plots_packages=(python3-numpy python3-matplotlib python3-jinja2)
 tests_packages=(libgtest-dev librapidcheck-dev python3-jsonschema python3-pytest
   clang-14 libomp-14-dev libclang-rt-14-dev clang-format-14 clang-tidy-14

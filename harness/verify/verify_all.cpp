@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "harness/measure/worker_team.hpp"
@@ -19,7 +20,7 @@ std::string compare_counts(const work_counts& w, const expectation& e) {
 
 verify_line check_one(const registry& r, const initial_condition& c, const setup& s, int threads, verifier& oracle,
                       std::map<std::string, std::uint64_t>& bits) {
-  verify_line line{s.precision, s.interaction, s.smoothing, s.backend, s.M, threads, true, 0, {}};
+  verify_line line{s, threads, true, 0, {}};
   const auto summation = r.make_summation(s);
   const worker_team workers(summation->traits().threads, threads);
   summation->load(c.particles, {});
@@ -30,31 +31,38 @@ verify_line check_one(const registry& r, const initial_condition& c, const setup
   if (o.bound > 0) line.share = o.max_rel_err / o.bound;
   const std::string counts = compare_counts(summation->count_work(), oracle.initial_expectation());
   if (line.ok && !counts.empty()) line.error = counts;
-  const auto [known, is_new] = bits.emplace(fmt::format("{} {}", s.backend, s.M), o.fingerprint);
+  const auto [known, is_new] =
+      bits.emplace(fmt::format("{} {} {} {} {}", s.backend, s.grid, s.M, s.isa, s.block), o.fingerprint);
   if (line.error.empty() && summation->traits().deterministic && !is_new && known->second != o.fingerprint)
     line.error = "claims equal bits for every number of threads, but they differ";
   line.ok = line.error.empty();
   return line;
 }
 
-/// Everything for one precision, interaction and smoothing kernel.
-bool verify_formula(const registry& r, const initial_condition& c, setup s, const verify_plan& plan,
+/// The words of `s` in the world of the case.
+setup in_world(setup s, const initial_condition& c) {
+  const setup world = setup_of(c);
+  s.dim = world.dim;
+  s.omega_low = world.omega_low;
+  s.omega_high = world.omega_high;
+  s.constants = world.constants;
+  return s;
+}
+
+/// Every sum of one formula.
+bool verify_formula(const registry& r, const initial_condition& c, const std::vector<verify_sum>& sums,
                     const std::function<void(const verify_line&)>& report) {
   bool all_ok = true;
-  const worker_team all(runtime::omp, plan.threads.back());
-  verifier oracle(r, s, c.particles, all.get());
+  int most = 1;
+  for (const verify_sum& sum : sums) most = std::max(most, sum.threads);
+  const worker_team all(runtime::omp, most);
+  verifier oracle(r, in_world(sums.front().words, c), c.particles, all.get());
   std::map<std::string, std::uint64_t> bits;
-  for (const std::string& backend : plan.backends)
-    for (const int M : plan.M)
-      for (const int threads : plan.threads) {
-        const bool serial = r.find_backend(backend).traits.threads == runtime::serial;
-        if (serial && threads != plan.threads.front()) continue;
-        s.backend = backend;
-        s.M = M;
-        const verify_line line = check_one(r, c, s, serial ? 1 : threads, oracle, bits);
-        all_ok = all_ok && line.ok;
-        report(line);
-      }
+  for (const verify_sum& sum : sums) {
+    const verify_line line = check_one(r, c, in_world(sum.words, c), sum.threads, oracle, bits);
+    all_ok = all_ok && line.ok;
+    report(line);
+  }
   return all_ok;
 }
 
@@ -63,19 +71,7 @@ bool verify_formula(const registry& r, const initial_condition& c, setup s, cons
 bool verify_all(const registry& r, const initial_condition& c, const verify_plan& plan,
                 const std::function<void(const verify_line&)>& report) {
   bool all_ok = true;
-  setup s = setup_of(c);
-  s.grid = plan.base.grid;
-  for (const std::string& backend : plan.backends) r.find_backend(backend);
-  for (const std::string& precision : plan.precisions)
-    for (const std::string& interaction : plan.interactions)
-      for (const std::string& smoothing : plan.smoothings) {
-        const bool smoothed = r.is_smoothed(interaction);
-        if (!smoothed && smoothing != plan.smoothings.front()) continue;
-        s.precision = precision;
-        s.interaction = interaction;
-        s.smoothing = smoothed ? smoothing : "none";
-        all_ok = verify_formula(r, c, s, plan, report) && all_ok;
-      }
+  for (const auto& sums : plan) all_ok = verify_formula(r, c, sums, report) && all_ok;
   return all_ok;
 }
 

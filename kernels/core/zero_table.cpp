@@ -9,8 +9,7 @@
 
 namespace pairsum {
 
-zero_table::zero_table(std::size_t n, const char* what) : n_(n) {
-  const std::string advice = "a smaller M takes less";
+zero_table::zero_table(std::size_t n, const char* what, const char* advice) : n_(n) {
   check_memory(static_cast<double>(n) * sizeof(std::uint32_t), what, advice);
   const std::size_t bytes = n * sizeof(std::uint32_t);
   void* const p = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);

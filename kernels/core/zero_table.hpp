@@ -10,8 +10,8 @@ namespace pairsum {
 class zero_table {
  public:
   zero_table() = default;
-  /// `what` names the array in the error.
-  zero_table(std::size_t n, const char* what);
+  /// `what` names the array in the error, `advice` what would take less.
+  zero_table(std::size_t n, const char* what, const char* advice = "a smaller M takes less");
   ~zero_table();
   zero_table(zero_table&& o) noexcept : data_(std::exchange(o.data_, nullptr)), n_(o.n_) {}
   zero_table& operator=(zero_table&& o) noexcept {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/column.hpp"
+#include "core/vec.hpp"
 #include "pattern/pattern.hpp"
 
 namespace pairsum {
@@ -26,11 +27,25 @@ struct cells {
   column<cell_range> range;          ///< index: cell
   column<std::uint32_t> neighbours;  ///< cell of the neighbour at code n of fluid cell c: [c * 3^D + n]
   column<std::uint8_t> colour;       ///< parity of the fluid cell's coordinates, one bit per component
+  column<ivec<D>> place;             ///< coordinates of the fluid cell, not negative; folded ones on a torus
+  std::int64_t period = 0;           ///< cells of a grid that closes on itself, per component; 0: it does not
   std::size_t fluid_cells = 0;
-  std::size_t total = 0;  ///< cells of the grid, empty ones included
+  std::size_t total = 0;  ///< cells of the grid, empty ones included where it has them
 
   std::size_t nonempty() const { return range.size() - 1; }
   const std::uint32_t* neighbours_of(std::size_t c) const { return neighbours.data() + c * stencil; }
+  /// Makes room for what a grid says of the fluid cells.
+  void resize_fluid() {
+    neighbours.resize((fluid_cells + 1) * stencil);
+    colour.resize(fluid_cells + 1);
+    place.resize(fluid_cells + 1);
+  }
+  void set_place(std::size_t c, const ivec<D>& at) {
+    place[c] = at;
+    unsigned parity = 0;
+    for (unsigned d = 0; d < D; ++d) parity |= static_cast<unsigned>(at[d] & 1) << d;
+    colour[c] = static_cast<std::uint8_t>(parity);
+  }
   std::uint32_t neighbour(std::size_t c, unsigned code) const { return neighbours[c * stencil + code]; }
 };
 

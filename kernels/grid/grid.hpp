@@ -9,18 +9,22 @@
 namespace pairsum {
 
 /// What a grid has to say: the key of a particle's cell, and which cells are neighbours. Everything else (sorting,
-/// ranges) is the indexer's; a grid is asked once per step, so its virtual calls cost nothing.
+/// ranges) is the indexer's; a grid is asked once per step and piece of the particles, so its virtual calls cost
+/// nothing.
 template <int D, class R>
 class grid {
  public:
   virtual ~grid() = default;
 
-  /// Number of cells, empty ones included.
+  /// Looks at the particles before keys(), for grids whose cells depend on them; those outside Omega and lost ones do
+  /// not count. Only the first `moved` may be others than in the last call. Returns whether keys mean other cells than
+  /// before: if not, whoever kept its cell keeps its key.
+  virtual bool adapt(const particle_set<D, R>&, [[maybe_unused]] std::size_t moved, const team&) { return false; }
+  /// Number of cells, empty ones included, of a grid that has them; known after connect().
   virtual std::size_t total_cells() const = 0;
   /// Keys are below 2^key_bits() <= 2^30.
   virtual int key_bits() const = 0;
-  /// Writes the cell key of particles begin..end, all of which lie in Omega or have left it (then the key does not
-  /// matter).
+  /// Writes the cell keys of particles begin..end to out[0..]; that of a particle that is not in Omega does not matter.
   virtual void keys(const particle_set<D, R>& p, std::size_t begin, std::size_t end,
                     std::span<std::uint32_t> out) const = 0;
   /// Fills `neighbours` and `colour` for the fluid cells; cell_keys[c] is the key of cell c (entry 0 is unused).

@@ -1,8 +1,8 @@
 #pragma once
 #include <string_view>
-#include <vector>
 
-#include "core/zero_table.hpp"
+#include "grid/cell_scale.hpp"
+#include "grid/cell_table.hpp"
 #include "grid/grid.hpp"
 
 namespace pairsum {
@@ -28,16 +28,12 @@ class hashed_grid final : public grid<D, R> {
 
   /// Width w >= H of a cell: so much wider than H that two particles that pass the test r < H are never two cells
   /// apart, whatever the rounding of (x-A)/w.
-  R cell_width() const { return w_; }
+  R cell_width() const { return scale_.w; }
 
  private:
-  void mark(std::span<const std::uint32_t> cell_keys, bool present, const team& t);
-
-  vec<D, R> low_;
-  R w_, inv_w_;
+  cell_scale<D, R> scale_;
   int M_;
-  zero_table table_;                  ///< key -> cell, 0 where empty
-  std::vector<std::uint32_t> known_;  ///< keys set in the table
+  cell_table table_;
 };
 
 }  // namespace pairsum

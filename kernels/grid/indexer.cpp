@@ -4,41 +4,98 @@
 #include <array>
 
 namespace pairsum {
+namespace {
+
+constexpr std::size_t chunk = 1024;  // of particles, whose keys stay in the first cache
+
+/// With more movers than 1 in so many sorting everything takes less time.
+constexpr std::size_t few = 6;
+
+}  // namespace
 
 template <int D, class R>
 void indexer<D, R>::build(particle_set<D, R>& p, const team& t) {
-  make_keys(p, t);
-  sort(p, t);
-  make_cells(t);
+  lost_ = 0;
+  const bool all = !known_ || keys_.size() != p.size();
+  known_ = false;  // until this build has come to its end
+  const bool renumbered = grid_->adapt(p, all ? p.size() : fluid_, t);
+  bool boundary_kept = false;
+  if (all || renumbered) {
+    make_keys(p, t);
+    sort(p, t);
+  } else {
+    find_movers(p, t);
+    if (movers_.empty()) {
+      known_ = true;
+      return;
+    }
+    boundary_kept = lost_ == 0;
+    const std::size_t end = lost_ == 0 ? fluid_ : p.size();
+    fluid_ -= lost_;
+    if (movers_.size() * few <= end) {
+      merge_.make({keys_.data(), end}, movers_, grid_->key_bits() + 2, t);
+      for (const mover& m : movers_) keys_[m.from] = m.key;
+      merge_.apply(keys_, t);
+      merge_.apply(p, t);
+    } else {
+      for (const mover& m : movers_) keys_[m.from] = m.key;
+      sort(p, t);
+    }
+  }
+  ranges_.make(keys_, fluid_, boundary_, boundary_kept, renumbered, *grid_, t);
+  known_ = true;
+}
+
+/// Are particles begin..end in Omega?
+template <int D, class R>
+bool indexer<D, R>::inside(const particle_set<D, R>& p, std::size_t begin, std::size_t end) const {
+  unsigned out = 0;
+  for (int d = 0; d < D; ++d) {
+    const R* const x = p.x[d].data();
+    const R low = omega_.low[d], high = omega_.high[d];
+    for (std::size_t i = begin; i < end; ++i) out |= !(unsigned(x[i] >= low) & unsigned(x[i] <= high));
+  }
+  return out == 0;
+}
+
+/// The keys of a chunk of particles, their kind in the highest bits. Those that are outside Omega become lost.
+template <int D, class R>
+void indexer<D, R>::keys_of(particle_set<D, R>& p, std::size_t begin, std::size_t end, std::uint32_t* out,
+                            std::size_t& lost) const {
+  grid_->keys(p, begin, end, {out, end - begin});
+  if (!inside(p, begin, end))
+    for (std::size_t i = begin; i < end; ++i)
+      if (p.kind[i] != particle_kind::lost && !omega_.contains(p.position(i))) {
+        p.kind[i] = particle_kind::lost;
+        ++lost;
+      }
+  const int kind_shift = grid_->key_bits();
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::uint32_t cell = p.kind[i] == particle_kind::lost ? 0 : out[i - begin];
+    out[i - begin] = cell | static_cast<std::uint32_t>(p.kind[i]) << kind_shift;
+  }
 }
 
 template <int D, class R>
 void indexer<D, R>::make_keys(particle_set<D, R>& p, const team& t) {
   keys_.resize(p.size());
-  const int kind_shift = grid_->key_bits();
   struct alignas(64) tally {
     std::size_t fluid = 0, boundary = 0, lost = 0;
   };
   std::vector<tally> tallies(static_cast<std::size_t>(t.threads()));
   t.for_pieces(p.size(), [&](std::size_t begin, std::size_t end, std::size_t piece) {
     tally count;
-    grid_->keys(p, begin, end, keys_);
-    for (std::size_t i = begin; i < end; ++i) {
-      bool inside = true;
-      for (int d = 0; d < D; ++d) inside = inside && p.x[d][i] >= omega_.low[d] && p.x[d][i] <= omega_.high[d];
-      if (!inside && p.kind[i] != particle_kind::lost) {
-        p.kind[i] = particle_kind::lost;
-        ++count.lost;
+    for (; begin < end; begin += chunk) {
+      const std::size_t stop = std::min(begin + chunk, end);
+      keys_of(p, begin, stop, keys_.data() + begin, count.lost);
+      for (std::size_t i = begin; i < stop; ++i) {
+        count.fluid += p.kind[i] == particle_kind::fluid;
+        count.boundary += p.kind[i] == particle_kind::boundary;
       }
-      const auto kind = p.kind[i];
-      count.fluid += kind == particle_kind::fluid;
-      count.boundary += kind == particle_kind::boundary;
-      const std::uint32_t cell = kind == particle_kind::lost ? 0 : keys_[i];
-      keys_[i] = cell | static_cast<std::uint32_t>(kind) << kind_shift;
     }
     tallies[piece] = count;
   });
-  fluid_ = boundary_ = lost_ = 0;
+  fluid_ = boundary_ = 0;
   for (const tally& a : tallies) {
     fluid_ += a.fluid;
     boundary_ += a.boundary;
@@ -46,83 +103,59 @@ void indexer<D, R>::make_keys(particle_set<D, R>& p, const team& t) {
   }
 }
 
-/// Boundary particles do not move, so after the first build [fluid_, size) is in order and only the fluid is sorted
-/// again.
+/// The fluid particles whose keys are not what they were, in the order of memory; keys_ is left as it is.
+template <int D, class R>
+void indexer<D, R>::find_movers(particle_set<D, R>& p, const team& t) {
+  struct alignas(64) found {
+    std::vector<mover> movers;
+    std::size_t lost = 0;
+  };
+  std::vector<found> parts(static_cast<std::size_t>(t.threads()));
+  t.for_pieces(fluid_, [&](std::size_t begin, std::size_t end, std::size_t piece) {
+    found& own = parts[piece];
+    std::array<std::uint32_t, chunk> now;
+    for (; begin < end; begin += chunk) {
+      const std::size_t n = std::min(chunk, end - begin);
+      keys_of(p, begin, begin + n, now.data(), own.lost);
+      const std::uint32_t* const before = keys_.data() + begin;
+      std::uint32_t changed = 0;
+      for (std::size_t k = 0; k < n; ++k) changed |= now[k] ^ before[k];
+      if (changed == 0) continue;
+      for (std::size_t k = 0; k < n; ++k)
+        if (now[k] != before[k]) own.movers.push_back({static_cast<std::uint32_t>(begin + k), now[k]});
+    }
+  });
+  movers_.clear();
+  for (const found& f : parts) {
+    movers_.insert(movers_.end(), f.movers.begin(), f.movers.end());
+    lost_ += f.lost;
+  }
+}
+
+template <int D, class R>
+bool indexer<D, R>::ascending(std::size_t begin, std::size_t end, const team& t) const {
+  std::vector<std::uint8_t> fine(static_cast<std::size_t>(t.threads()), 1);
+  t.for_pieces(end - begin, [&](std::size_t b, std::size_t e, std::size_t piece) {
+    b += begin, e = std::min(e + begin + 1, end);
+    std::uint8_t ok = 1;
+    for (std::size_t k = b + 1; k < e; ++k) ok &= keys_[k - 1] <= keys_[k];
+    fine[piece] = ok;
+  });
+  return std::ranges::count(fine, 0) == 0;
+}
+
+/// Sorts everything, or the fluid alone if the rest is in order.
 template <int D, class R>
 void indexer<D, R>::sort(particle_set<D, R>& p, const team& t) {
-  const auto ascending = [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint8_t> fine(static_cast<std::size_t>(t.threads()), 1);
-    t.for_pieces(end - begin, [&](std::size_t b, std::size_t e, std::size_t piece) {
-      b += begin, e = std::min(e + begin + 1, end);
-      std::uint8_t ok = 1;
-      for (std::size_t k = b + 1; k < e; ++k) ok &= keys_[k - 1] <= keys_[k];
-      fine[piece] = ok;
-    });
-    return std::ranges::count(fine, 0) == 0;
-  };
   const std::uint32_t first_boundary_key = std::uint32_t{1} << grid_->key_bits();
   const bool tail_in_order =
-      ascending(fluid_, p.size()) &&
+      ascending(fluid_, p.size(), t) &&
       (fluid_ == p.size() || keys_[fluid_] >= first_boundary_key);  // then [0, fluid_) is all fluid
   const std::size_t end = tail_in_order ? fluid_ : p.size();
-  if (ascending(0, end)) return;
+  if (ascending(0, end, t)) return;
   counting_sort_.sort({keys_.data(), end}, grid_->key_bits() + (tail_in_order ? 0 : 2), t);
   reorder_.apply(p, counting_sort_.order(), t);
   reorder_.apply(keys_, counting_sort_.order(), t);
-}
-
-/// Indices in [begin, end) at which a new key starts.
-template <int D, class R>
-std::vector<std::uint32_t> indexer<D, R>::starts(std::size_t begin, std::size_t end, const team& t) const {
-  const auto is_start = [&](std::size_t k) { return k == begin || keys_[k - 1] != keys_[k]; };
-  std::vector<std::size_t> offset(static_cast<std::size_t>(t.threads()) + 1, 0);
-  t.for_pieces(end - begin, [&](std::size_t b, std::size_t e, std::size_t piece) {
-    std::size_t n = 0;
-    for (std::size_t k = begin + b; k < begin + e; ++k) n += is_start(k);
-    offset[piece + 1] = n;
-  });
-  for (std::size_t piece = 1; piece < offset.size(); ++piece) offset[piece] += offset[piece - 1];
-  std::vector<std::uint32_t> result(offset.back());
-  t.for_pieces(end - begin, [&](std::size_t b, std::size_t e, std::size_t piece) {
-    std::size_t n = offset[piece];
-    for (std::size_t k = begin + b; k < begin + e; ++k)
-      if (is_start(k)) result[n++] = static_cast<std::uint32_t>(k);
-  });
-  return result;
-}
-
-template <int D, class R>
-void indexer<D, R>::make_cells(const team& t) {
-  const auto fluid_starts = starts(0, fluid_, t);
-  const auto boundary_starts = starts(fluid_, fluid_ + boundary_, t);
-  const std::uint32_t cell_mask = (std::uint32_t{1} << grid_->key_bits()) - 1;
-  auto end_of = [](const std::vector<std::uint32_t>& s, std::size_t k, std::size_t end) {
-    return k + 1 < s.size() ? s[k + 1] : static_cast<std::uint32_t>(end);
-  };
-  cells_.total = grid_->total_cells();
-  cells_.fluid_cells = fluid_starts.size();
-  cells_.range.clear();
-  cells_.range.resize(fluid_starts.size() + 1);
-  cell_keys_.assign(fluid_starts.size() + 1, 0);
-  cells_.range[0] = {};
-  for (std::size_t k = 0; k < fluid_starts.size(); ++k) {
-    cells_.range[k + 1] = {fluid_starts[k], end_of(fluid_starts, k, fluid_), 0, 0};
-    cell_keys_[k + 1] = keys_[fluid_starts[k]];
-  }
-  std::size_t c = 1;  // walks the fluid cells in step with the boundary cells: both ascend by key
-  for (std::size_t k = 0; k < boundary_starts.size(); ++k) {
-    const std::uint32_t begin = boundary_starts[k], end = end_of(boundary_starts, k, fluid_ + boundary_);
-    const std::uint32_t key = keys_[begin] & cell_mask;
-    while (c <= cells_.fluid_cells && cell_keys_[c] < key) ++c;
-    if (c <= cells_.fluid_cells && cell_keys_[c] == key) {
-      cells_.range[c].boundary_begin = begin;
-      cells_.range[c].boundary_end = end;
-    } else {
-      cells_.range.push_back({0, 0, begin, end});
-      cell_keys_.push_back(key);
-    }
-  }
-  grid_->connect(cell_keys_, cells_, t);
 }
 
 template class indexer<1, double>;

@@ -2,8 +2,10 @@
 #include <memory>
 #include <vector>
 
+#include "grid/cell_ranges.hpp"
 #include "grid/counting_sort.hpp"
 #include "grid/grid.hpp"
+#include "grid/merge_plan.hpp"
 #include "particles/reorder.hpp"
 
 namespace pairsum {
@@ -11,32 +13,44 @@ namespace pairsum {
 /// Sorts particles by (kind, cell) in place and describes the cells: fluid before boundary before lost, each by
 /// ascending cell key, so that a cell's fluid and a cell's boundary are contiguous, and so are those of cells with
 /// consecutive keys.
+///
+/// The order is that of a stable sort of the particles as they were handed in, for every team, however it is come by: a
+/// build after the first looks at the fluid alone, moves only what the particles that changed their cell push aside,
+/// and if there is none leaves everything as it is.
 template <int D, class R>
 class indexer {
  public:
   indexer(const box<D, R>& omega, std::unique_ptr<grid<D, R>> g) : omega_(omega), grid_(std::move(g)) {}
 
-  /// Particles that are outside Omega (or NaN) become `lost`. Blocks that are sorted already are left alone.
+  /// Particles that are outside Omega (or NaN) become `lost`. From build to build the particles stay in their order and
+  /// boundary where it is; else call forget() in between.
   void build(particle_set<D, R>& p, const team& t);
 
-  const cells<D>& view() const { return cells_; }
+  /// Other particles come, or boundary was moved: the next build looks at all of them.
+  void forget() { known_ = false; }
+
+  const cells<D>& view() const { return ranges_.view(); }
   std::size_t fluid() const { return fluid_; }        ///< fluid particles are [0, fluid())
   std::size_t boundary() const { return boundary_; }  ///< boundary particles follow
   std::size_t lost() const { return lost_; }          ///< newly lost in this build
 
  private:
   void make_keys(particle_set<D, R>& p, const team& t);
+  void find_movers(particle_set<D, R>& p, const team& t);
   void sort(particle_set<D, R>& p, const team& t);
-  void make_cells(const team& t);
-  std::vector<std::uint32_t> starts(std::size_t begin, std::size_t end, const team& t) const;
+  bool ascending(std::size_t begin, std::size_t end, const team& t) const;
+  bool inside(const particle_set<D, R>& p, std::size_t begin, std::size_t end) const;
+  void keys_of(particle_set<D, R>& p, std::size_t begin, std::size_t end, std::uint32_t* out, std::size_t& lost) const;
 
   box<D, R> omega_;
   std::unique_ptr<grid<D, R>> grid_;
   counting_sort counting_sort_;
   reorderer reorder_;
-  column<std::uint32_t> keys_;
-  std::vector<std::uint32_t> cell_keys_;
-  cells<D> cells_;
+  merge_plan merge_;
+  column<std::uint32_t> keys_;  ///< of all particles, as sorted: (kind, cell)
+  std::vector<mover> movers_;
+  cell_ranges<D> ranges_;
+  bool known_ = false;
   std::size_t fluid_ = 0, boundary_ = 0, lost_ = 0;
 };
 

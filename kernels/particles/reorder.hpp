@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <span>
+#include <tuple>
 
 #include "core/team.hpp"
 #include "particles/particle_set.hpp"
@@ -12,11 +14,13 @@ class reorderer {
  public:
   template <class T>
   void apply(column<T>& c, std::span<const std::uint32_t> source, const team& t) {
-    scratch_.resize(source.size() * sizeof(T));
-    T* const to = reinterpret_cast<T*>(scratch_.data());
+    column<T>& scratch = std::get<column<T>>(scratch_);
+    scratch.resize(source.size());
+    T* const to = scratch.data();
     t.for_pieces(source.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t k = begin; k < end; ++k) to[k] = c[source[k]];
     });
+    if (source.size() == c.size()) return c.swap(scratch);
     t.for_pieces(source.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
       std::copy(to + begin, to + end, c.begin() + static_cast<std::ptrdiff_t>(begin));
     });
@@ -28,7 +32,7 @@ class reorderer {
   }
 
  private:
-  column<std::byte> scratch_;
+  std::tuple<column<double>, column<float>, column<std::uint32_t>, column<particle_kind>> scratch_;
 };
 
 }  // namespace pairsum

@@ -21,6 +21,8 @@ struct backend_traits {
   bool sweeps_per_colour;        ///< a sum goes over all particles once per colour of the blocks; else once
   bool keeps_pairs;              ///< prepare tests the distances and lists the pairs; else sum tests them
   granularity loop{};            ///< how it shares out its loops unless the team says; none without such loops
+  bool vector = false;           ///< runs on vector units, of which setup::isa chooses
+  bool blocks = false;           ///< goes over blocks of cells, which setup::block shapes
 
   /// How often a sum goes over the particles in `dim` dimensions.
   constexpr int sweeps(int dim) const { return sweeps_per_colour ? 1 << dim : 1; }

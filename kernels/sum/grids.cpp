@@ -6,18 +6,29 @@
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "core/tbb_arena.hpp"
-#include "grid/hashed_grid.hpp"
+#include "grid/compact_grid.hpp"
+#include "grid/dense_grid.hpp"
 #include "sum/check.hpp"
 
 namespace pairsum {
 
-std::vector<std::string_view> grid_names() { return {hashed_grid<3, double>::name}; }
+std::vector<std::string_view> grid_names() {
+  return {hashed_grid<3, double>::name, dense_grid<3, double>::name, compact_grid<3, double>::name};
+}
+
+bool grid_takes_M(std::string_view grid) {
+  check_word("grid", grid, grid_names());
+  return grid == hashed_grid<3, double>::name;
+}
 
 template <int D, class R>
 std::unique_ptr<grid<D, R>> make_grid(const setup& s) {
   check_world(s);
-  if (s.grid == hashed_grid<D, R>::name)
-    return std::make_unique<hashed_grid<D, R>>(make_box<D, R>(s), static_cast<R>(s.constants.H), s.M);
+  const box<D, R> omega = make_box<D, R>(s);
+  const R H = static_cast<R>(s.constants.H);
+  if (s.grid == hashed_grid<D, R>::name) return std::make_unique<hashed_grid<D, R>>(omega, H, s.M);
+  if (s.grid == dense_grid<D, R>::name) return std::make_unique<dense_grid<D, R>>(omega, H);
+  if (s.grid == compact_grid<D, R>::name) return std::make_unique<compact_grid<D, R>>(omega, H);
   throw unknown_name("grid", s.grid, grid_names());
 }
 

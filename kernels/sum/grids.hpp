@@ -14,7 +14,10 @@ namespace pairsum {
 /// Names of the grids, in the order they are listed.
 std::vector<std::string_view> grid_names();
 
-/// The grid that `s` names; an error lists the valid names or says what is wrong with M or H.
+/// Does this grid fold cells, so that it needs an M? Setups of the others may have any. An unknown name is an error.
+bool grid_takes_M(std::string_view grid);
+
+/// The grid that `s` names; an error lists the valid names or says what is wrong with M, H or Omega.
 template <int D, class R>
 std::unique_ptr<grid<D, R>> make_grid(const setup& s);
 

@@ -17,15 +17,18 @@ class interaction_columns {
  public:
   explicit interaction_columns(const physics& constants) : formula_(constants), H_(static_cast<R>(constants.H)) {}
 
-  /// Derives the per-particle terms of fluid [0, fluid) and boundary [fluid, fluid + boundary).
-  [[gnu::noinline]] void derive(const particle_set<D, R>& p, std::size_t fluid, std::size_t boundary, const team& t) {
+  /// Derives the per-particle terms of boundary [fluid, fluid + boundary) and, unless the backend does, of fluid [0,
+  /// fluid).
+  [[gnu::noinline]] void derive(const particle_set<D, R>& p, std::size_t fluid, std::size_t boundary, const team& t,
+                                bool with_fluid = true) {
     fluid_.resize(fluid);
     boundary_.resize(boundary);
     u_.resize(fluid);
     const auto to = fluid_.pointers();
-    t.for_pieces(fluid, [&](std::size_t begin, std::size_t end, std::size_t) {
-      for (std::size_t i = begin; i < end; ++i) to.store(i, formula_.derive(state_of(p, i)));
-    });
+    if (with_fluid)
+      t.for_pieces(fluid, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) to.store(i, formula_.derive(state_of(p, i)));
+      });
     if constexpr (has_boundary<I>) {
       const auto wall = boundary_.pointers();
       t.for_pieces(boundary, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -55,6 +58,8 @@ class interaction_columns {
     v.reach2 = H_ * H_;
     v.boundary_reach2 = reach * reach;
     v.fluid_count = fluid_.size();
+    v.count = fluid_.size() + boundary_.size();
+    v.particles = &p;
     return v;
   }
 
@@ -136,8 +141,8 @@ class interaction_state : public state<I::dim, typename I::real> {
   ~interaction_state() override;
 
   /// Derives what the formula needs of the particles as indexed last.
-  [[gnu::noinline]] const problem<I>& derive(const team& t) {
-    columns_.derive(this->particles_, this->index_.fluid(), this->index_.boundary(), t);
+  [[gnu::noinline]] const problem<I>& derive(const team& t, bool with_fluid) {
+    columns_.derive(this->particles_, this->index_.fluid(), this->index_.boundary(), t, with_fluid);
     return view_ = columns_.view(this->particles_, this->index_.view());
   }
 

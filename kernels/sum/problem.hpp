@@ -3,6 +3,7 @@
 
 #include "grid/cells.hpp"
 #include "interactions/interaction.hpp"
+#include "particles/particle_set.hpp"
 
 namespace pairsum {
 
@@ -32,8 +33,9 @@ struct problem {
   field_pointers<rates_of<I>> u;                     ///< index: fluid particle
   const pairsum::cells<dim>* grid_cells;
   const I* formula;
-  real reach2, boundary_reach2;  ///< H^2 and (boundary_reach H)^2
-  std::size_t fluid_count;
+  real reach2, boundary_reach2;              ///< H^2 and (boundary_reach H)^2
+  std::size_t fluid_count, count;            ///< fluid, and with the boundary
+  const particle_set<dim, real>* particles;  ///< the sorted set
 
   const pairsum::cells<dim>& cells() const { return *grid_cells; }
 

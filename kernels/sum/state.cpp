@@ -1,8 +1,6 @@
 #include "sum/state.hpp"
 
-#include <algorithm>
-#include <cmath>
-
+#include "grid/cell_scale.hpp"
 #include "sum/check.hpp"
 #include "sum/grids.hpp"
 
@@ -19,6 +17,7 @@ void state<D, R>::load(const particle_table& p, const std::vector<std::uint32_t>
   check(p);
   check_order(order, p.size());
   fill(particles_, p, order, t);
+  index_.forget();
   rows_ = p.size();
   lost_ = 0;
 }
@@ -36,15 +35,12 @@ void state<D, R>::index(const team& t) {
 
 template <int D, class R>
 std::optional<unfolded_tests> state<D, R>::count_unfolded_tests() const {
-  // Cells are at least H wide; one more keeps the first and the last apart on the torus, another rounding errors.
-  double widest = 0;
-  for (int d = 0; d < D; ++d)
-    widest = std::max(widest, (setup_.omega_high[d] - setup_.omega_low[d]) / setup_.constants.H);
   setup unfolded = setup_;
-  for (unfolded.M = 2; std::ldexp(1.0, unfolded.M) < widest + 3;) ++unfolded.M;
-  if (D * unfolded.M > 30) return std::nullopt;
+  unfolded.grid = "compact_grid";
+  const box<D, R> omega = make_box<D, R>(unfolded);
+  if (!resolves(omega, static_cast<R>(unfolded.constants.H))) return std::nullopt;
   particle_set<D, R> particles = particles_;
-  indexer<D, R> index(make_box<D, R>(unfolded), make_grid<D, R>(unfolded));
+  indexer<D, R> index(omega, make_grid<D, R>(unfolded));
   index.build(particles, team());
   const cells<D>& c = index.view();
   unfolded_tests tests;

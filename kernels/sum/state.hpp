@@ -28,7 +28,9 @@ class state : public summation {
   particle_table snapshot() const override;
   std::size_t lost() const override { return lost_; }
 
+  /// Who moves boundary particles, or changes the order of any, calls forget_index().
   particle_set<D, R>& particles() { return particles_; }
+  void forget_index() { index_.forget(); }
   /// Fluid particles are the first of the set after index().
   std::size_t fluid_count() const { return index_.fluid(); }
 

@@ -49,8 +49,8 @@ class summation {
   /// The work of a summation of the state as indexed last; an untimed instantiation of its own, on one thread.
   virtual work_counts count_work() = 0;
 
-  /// The distance tests a grid that folds nothing would need for the state as loaded or indexed last; empty if no grid
-  /// is large enough for it.
+  /// The distance tests a grid that folds nothing would need for the state as loaded or indexed last; empty if the
+  /// precision does not resolve H in an Omega of that size.
   virtual std::optional<unfolded_tests> count_unfolded_tests() const = 0;
 
   virtual rate_table rates() const = 0;

@@ -7,15 +7,22 @@
 
 namespace pairsum {
 
+/// Lets a workspace that wants it read the setup.
+template <class W>
+void configure(W& workspace, const setup& s) {
+  if constexpr (requires { workspace.configure(s); }) workspace.configure(s);
+}
+
 /// Counts the work of backend B on indexed particles, by summing `count` on one thread.
 template <class B, int D, class R>
-work_counts count_work_of(const particle_set<D, R>& p, const indexer<D, R>& index, const physics& constants) {
+work_counts count_work_of(const particle_set<D, R>& p, const indexer<D, R>& index, const setup& s) {
   using I = count<D, R>;
-  interaction_columns<I> columns(constants);
+  interaction_columns<I> columns(s.constants);
   const team alone;
   columns.derive(p, index.fluid(), index.boundary(), alone);
   columns.zero_rates(alone);
   typename B::template workspace<I> workspace;
+  configure(workspace, s);
   work_probe probe;
   with_one_thread(B::traits.threads, [&](const team& one) {
     const auto view = columns.view(p, index.view());
@@ -32,20 +39,26 @@ template <class B, interaction I>
 requires backend<B, I>
 class summation_of final : public interaction_state<I> {
   using base = interaction_state<I>;
+  using workspace = typename B::template workspace<I>;
   using base::view_;
   static_assert(B::traits.evaluations_per_pair > 0, "the backend's traits lack evaluations_per_pair");
 
  public:
-  explicit summation_of(const setup& s) : base(s) {}
+  explicit summation_of(const setup& s) : base(s) { configure(workspace_, s); }
 
   const backend_traits& traits() const override { return B::traits; }
 
   void prepare(const team& t) override {
     no_probe unobserved;
-    workspace_.prepare(base::derive(t), t, unobserved);
+    bool with_fluid = true;
+    if constexpr (requires { workspace_.derives_fluid(); }) with_fluid = !workspace_.derives_fluid();
+    workspace_.prepare(base::derive(t, with_fluid), t, unobserved);
   }
   void zero(const team& t) override {
-    if constexpr (B::traits.accumulates) this->columns_.zero_rates(t);
+    if constexpr (requires { workspace_.zero(view_, t); })
+      workspace_.zero(view_, t);
+    else if constexpr (B::traits.accumulates)
+      this->columns_.zero_rates(t);
   }
   void sum(const team& t) override {
     no_probe marks{this->observer_};
@@ -55,10 +68,10 @@ class summation_of final : public interaction_state<I> {
     if constexpr (requires { workspace_.reduce(view_, t); }) workspace_.reduce(view_, t);
   }
 
-  work_counts count_work() override { return count_work_of<B>(this->particles_, this->index_, this->setup_.constants); }
+  work_counts count_work() override { return count_work_of<B>(this->particles_, this->index_, this->setup_); }
 
  private:
-  typename B::template workspace<I> workspace_;
+  workspace workspace_;
 };
 
 }  // namespace pairsum

@@ -39,6 +39,11 @@ BAD_RUNS = [
     (["--budget", "-1"], ["budget must be at least 0"]),
     (["--binding", "nope"], ["nope", "cores_first"]),
     (["--granularity", "nope"], ["nope"]),
+    (["--grid", "nope"], ["nope", "hashed_grid"]),
+    (["--grid", "hashed_grid,"], ["--grid"]),
+    (["--isa", "nope"], ["nope"]),
+    (["--block", "slab:0"], ["slab:0", "pencil:N"]),
+    (["--block", "4"], ['"4"', "auto"]),
     (["--program", "nope"], ["--program"]),  # the options name no second build
     (["--study", "a/b"], ["study"]),
     (["--nope"], ["--nope"]),
@@ -59,6 +64,9 @@ def test_run_refuses(pairsum, tmp_path, words, says):
     (["--backend", "nope"], ["symmetric_omp"]),
     (["--dx", "nan"], ["dx must be"]),
     (["--threads", "0"], ["threads must be"]),
+    (["--grid", "nope"], ["hashed_grid"]),
+    (["--isa", "nope"], ["nope"]),
+    (["--block", "nope"], ["slab:N"]),
     (["--interaction", "nope"], ["count"]),
 ])
 def test_verify_refuses(pairsum, words, says):
@@ -126,3 +134,5 @@ def test_report_names_line_and_key(pairsum, rows):
 def test_bench_refuses(pairsum):
     assert refused(pairsum("--M", "1", program="pairsum_bench"), "M must be")
     assert refused(pairsum("--dx", "-1", program="pairsum_bench"), "dx must be")
+    assert refused(pairsum("--grid", "nope", program="pairsum_bench"), "hashed_grid")
+    assert refused(pairsum("--block", "nope", program="pairsum_bench"), "slab:N")

@@ -31,11 +31,14 @@ def backends(listed):
 
 
 def number_of_sums(listed, M, threads):
-    """How many sums `verify` makes: serial backends once, the others with each number of threads."""
-    runs = sum(1 if b["threads"] == "serial" else threads for b in listed["backends"] if b["unavailable"] is None)
+    """How many sums `verify` makes: serial backends once, the others with each number of threads; grids that take no M
+    once, vector backends with each isa, every backend in the precisions that it has."""
+    runs = sum((1 if b["threads"] == "serial" else threads) * (len(listed["isas"]) if b["vector"] else 1) * len(b["precisions"])
+               for b in listed["backends"] if b["unavailable"] is None)
+    grids = len(listed["grids"]) + (M - 1) * len(listed["grids_with_M"])
     plain = len(listed["plain_interactions"])
     formulas = (len(listed["interactions"]) - plain) * len(listed["smoothings"]) + plain
-    return len(listed["dims"]) * len(listed["precisions"]) * formulas * M * runs
+    return len(listed["dims"]) * formulas * grids * runs
 
 
 def schema_errors(path):
@@ -53,16 +56,17 @@ def test_version_names_revision_compiler_and_flags(pairsum):
 def test_help_teaches(pairsum):
     assert "pairsum run" in pairsum("--help").stdout
     assert "worker" not in pairsum("--help").stdout
-    for command in ["run", "verify", "report", "compare", "list"]:
+    for command in ["run", "tune", "verify", "report", "compare", "list"]:
         done = pairsum(command, "--help")
         assert done.returncode == 0 and len(done.stdout) > 200
 
 
 def test_number_of_sums():
-    backends = [{"threads": t, "unavailable": u} for t, u in [("serial", None), ("omp", None), ("tbb", "no TBB")]]
-    built = {"backends": backends, "dims": [2, 3], "precisions": ["double"], "interactions": ["a", "count"], "smoothings": ["s", "t"],
+    backends = [{"threads": t, "unavailable": u, "vector": v, "precisions": ["double"]}
+                for t, u, v in [("serial", None, False), ("omp", None, True), ("tbb", "no TBB", False)]]
+    built = {"backends": backends, "dims": [2, 3], "grids": ["a", "b"], "grids_with_M": ["a"], "isas": ["x", "y"], "precisions": ["double"], "interactions": ["a", "count"], "smoothings": ["s", "t"],
              "plain_interactions": ["count"]}
-    assert number_of_sums(built, 2, 3) == 2 * (2 + 1) * 2 * (1 + 3)
+    assert number_of_sums(built, 2, 3) == 2 * (2 + 1) * (2 + 1) * (1 + 2 * 3)
 
 
 def test_list_and_its_json_agree(pairsum, listed):
@@ -136,10 +140,25 @@ def test_verify_says_how_many_agree(pairsum, listed):
 
 def test_verify_can_say_each_sum(pairsum):
     done = pairsum("verify", "--dim", "3", "--precision", "double", "--interaction", "ferrari09", "--smoothing", "wendland_c2",
-                   "--backend", "naive,symmetric_omp", "--dx", "0.08", "--M", "2,6", "--threads", "1,3", "--each")
+                   "--backend", "naive,symmetric_omp", "--grid", "hashed_grid", "--dx", "0.08", "--M", "2,6", "--threads", "1,3",
+                   "--each")
     lines = [line for line in done.stdout.splitlines() if "threads=" in line]
     assert done.returncode == 0 and len(lines) == 2 * (1 + 2)
     assert all(re.search(r"M=[26] +threads=[13] +\d", line) for line in lines)
+
+
+def test_grids_without_m_are_measured_once_and_have_no_m(pairsum, listed, tmp_path):
+    without = sorted(set(listed["grids"]) - set(listed["grids_with_M"]))
+    done = pairsum("run", *SMALL[:2], "--M", "3,4", "--threads", 1, "--rounds", 1, "--steps", 1, "--backend", "symmetric_omp",
+                   "--grid", ",".join(listed["grids"]), "--out", "rows.jsonl")
+    assert done.returncode == 0, done.stderr
+    assert schema_errors(tmp_path / "rows.jsonl") == []
+    points = [row["point"] for row in map(json.loads, (tmp_path / "rows.jsonl").read_text().splitlines()) if row["kind"] == "sample"]
+    assert sorted((p["grid"], p["M"] or 0) for p in points) == sorted(
+        [(grid, m) for grid in listed["grids_with_M"] for m in (3, 4)] + [(grid, 0) for grid in without])
+    assert all((p["M"] is None) == (p["grid"] in without) and p["block"] == "none" for p in points)
+    for grid in without:
+        assert re.search(rf"^symmetric_omp/{grid} .* rest +- +1 ", done.stdout, re.M), done.stdout
 
 
 def test_lists_of_words_are_factors(pairsum, listed, tmp_path):

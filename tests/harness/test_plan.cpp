@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/isa.hpp"
 #include "harness/plan/plan.hpp"
 
 namespace pairsum::harness {
@@ -53,6 +54,75 @@ TEST(plan, granularities_are_those_of_the_backend_and_serial_ones_have_none) {
   EXPECT_EQ(points[0].granularity, "none");
   EXPECT_EQ(points[1].granularity, "dynamic:32");
   EXPECT_EQ(points[2].granularity, "static:0");
+}
+
+TEST(plan, a_grid_that_takes_no_M_is_there_once) {
+  run_request r;
+  r.grids = {"hashed_grid", "compact_grid"};
+  r.backends = {"symmetric_omp"};
+  r.M = {6, 7};
+  const auto points = expand(r).front();
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_EQ(points[0].grid + std::to_string(points[0].M), "hashed_grid6");
+  EXPECT_EQ(points[1].grid + std::to_string(points[1].M), "hashed_grid7");
+  EXPECT_EQ(points[2].grid + std::to_string(points[2].M), "compact_grid0");
+}
+
+std::unique_ptr<summation> as_it_is(std::unique_ptr<summation> inner, const setup&) { return inner; }
+
+/// With a vector backend that has blocks, and one without.
+registry vector_registry() {
+  registry r = registry::instance();
+  backend_traits t = r.find_backend("symmetric_omp").traits;
+  t.name = "vector";
+  t.vector = true;
+  r.enrol_wrapper(t, "symmetric_omp", as_it_is);
+  t.name = "vector_blocks";
+  t.blocks = true;
+  r.enrol_wrapper(t, "symmetric_omp", as_it_is);
+  return r;
+}
+
+TEST(plan, isa_and_block_vary_for_those_who_have_them) {
+  const registry all = vector_registry();
+  run_request r;
+  r.backends = {"naive_omp", "vector", "vector_blocks"};
+  r.M = {6};
+  r.isas = {"best", std::string(isa_names().back())};
+  r.blocks = {"auto", "slab:4"};
+  EXPECT_NO_THROW(check_request(r, all));
+  const std::size_t isas = isa_names().size() > 1 ? 2 : 1;  // best may be the only one
+  const auto points = expand(r, all).front();
+  const auto of = [&](const char* backend) { return std::ranges::count(points, backend, &point::backend); };
+  EXPECT_EQ(of("naive_omp"), 1);
+  EXPECT_EQ(of("vector"), static_cast<std::ptrdiff_t>(isas));
+  EXPECT_EQ(of("vector_blocks"), static_cast<std::ptrdiff_t>(2 * isas));
+  for (const point& p : points) {
+    EXPECT_NE(p.isa, "best");
+    EXPECT_EQ(p.block == "none", p.backend != "vector_blocks") << p.block;
+    EXPECT_NO_THROW(check_isa(p.backend == "naive_omp" ? "best" : p.isa));
+  }
+}
+
+TEST(plan, a_backend_is_left_out_of_what_it_is_not_built_for) {
+  registry all = registry::instance();
+  backend_traits t = all.find_backend("symmetric_omp").traits;
+  t.name = "bare";
+  all.enrol_backend(t);  // built for nothing
+  run_request r;
+  r.backends = {"bare", "naive"};
+  r.M = {6};
+  EXPECT_NO_THROW(check_request(r, all));
+  ASSERT_EQ(expand(r, all).size(), 1u);
+  ASSERT_EQ(expand(r, all).front().size(), 1u);
+  EXPECT_EQ(expand(r, all).front().front().backend, "naive");
+  r.backends = {"bare"};
+  try {
+    check_request(r, all);
+    ADD_FAILURE() << "nothing is left to be measured";
+  } catch (const error& e) {
+    EXPECT_STREQ(e.what(), "none of the backends bare is built for ferrari09 in 3D and precision double");
+  }
 }
 
 TEST(plan, order_is_a_permutation_that_seed_round_and_repetition_decide) {
@@ -104,7 +174,10 @@ TEST(plan, refuses_what_makes_no_sense_in_one_line) {
   expect_refused([](auto& r) { r.smoothings = {"nope"}; }, "valid: wendland_c2");
   expect_refused([](auto& r) { r.precisions = {"nope"}; }, "valid: double");
   expect_refused([](auto& r) { r.integrators = {"nope"}; }, "valid: euler");
-  expect_refused([](auto& r) { r.grid = "nope"; }, "valid: hashed_grid");
+  expect_refused([](auto& r) { r.grids = {"nope"}; }, "valid: hashed_grid");
+  expect_refused([](auto& r) { r.isas = {"nope"}; }, "valid: ");
+  for (const char* bad : {"nope", "slab", "slab:", "slab:0", "slab:x", "slab:4x", "ball:4", "slab:99999999999"})
+    expect_refused([&](auto& r) { r.blocks = {"auto", bad}; }, "block must be auto, slab:N");
   expect_refused([](auto& r) { r.orders = {"nope"}; }, "valid: lattice");
   expect_refused([](auto& r) { r.outside = "nope"; }, "valid: error");
   expect_refused([](auto& r) { r.M = {0}; }, "between 2 and 10");

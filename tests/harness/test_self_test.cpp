@@ -7,6 +7,7 @@
 #include "broken_registry.hpp"
 #include "core/error.hpp"
 #include "harness/measure/worker_team.hpp"
+#include "harness/run/point_setup.hpp"
 #include "harness/self_test/self_test.hpp"
 #include "harness/self_test/slowed_summation.hpp"
 #include "harness/verify/verifier.hpp"
@@ -147,15 +148,17 @@ TEST(self_test, the_delay_is_at_least_its_share) {
 
 TEST(self_test, the_verifier_refuses_the_corrupt_alone) {
   const registry r = with_self_test(registry::instance());
-  verify_plan plan;
+  run_request plan;
+  plan.backends.clear();
   plan.interactions = {"ferrari09", "count"};
   plan.M = {2, 6};
   plan.threads = {1, 2};
   for (const self_test_entry& e : built()) plan.backends.emplace_back(e.word);
   std::size_t lines = 0;
-  verify_all(r, small(), plan, [&](const verify_line& l) {
+  verify_all(r, small(), verify_plan_of(plan, r), [&](const verify_line& l) {
     ++lines;
-    EXPECT_EQ(l.ok, !l.backend.starts_with("corrupt_")) << l.backend << " " << l.interaction << ": " << l.error;
+    EXPECT_EQ(l.ok, !l.sum.backend.starts_with("corrupt_"))
+        << l.sum.backend << " " << l.sum.interaction << ": " << l.error;
     EXPECT_EQ(l.error.find("(1 of ") != std::string::npos, !l.ok) << l.error;
   });
   EXPECT_EQ(lines, 8 * plan.backends.size());

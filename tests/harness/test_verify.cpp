@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "harness/run/point_setup.hpp"
 #include "harness/verify/pack.hpp"
 #include "harness/verify/shared_store.hpp"
 #include "harness/verify/verifier.hpp"
@@ -13,18 +14,18 @@
 namespace pairsum::harness {
 namespace {
 
-verify_plan plan_for(std::vector<std::string> backends) {
-  verify_plan p;
-  p.interactions = {"ferrari09", "count"};
-  p.backends = std::move(backends);
-  p.M = {2, 6};
-  p.threads = {1, 2};
-  return p;
+run_request plan_for(std::vector<std::string> backends) {
+  run_request r;
+  r.interactions = {"ferrari09", "count"};
+  r.backends = std::move(backends);
+  r.M = {2, 6};
+  r.threads = {1, 2};
+  return r;
 }
 
-std::vector<verify_line> verify(const registry& r, const verify_plan& plan, const initial_condition& c, bool& ok) {
+std::vector<verify_line> verify(const registry& r, const run_request& plan, const initial_condition& c, bool& ok) {
   std::vector<verify_line> lines;
-  ok = verify_all(r, c, plan, [&](const verify_line& l) { lines.push_back(l); });
+  ok = verify_all(r, c, verify_plan_of(plan, r), [&](const verify_line& l) { lines.push_back(l); });
   return lines;
 }
 
@@ -36,14 +37,14 @@ TEST(verify, passes_every_real_backend) {
   bool ok = false;
   const auto lines = verify(registry::instance(), plan_for(names), perturbed(), ok);
   EXPECT_TRUE(ok);
-  const verify_plan plan = plan_for(names);
+  const run_request plan = plan_for(names);
   std::size_t sums = 0;  // serial backends once, the others with each number of threads
   for (const auto& b : registry::instance().backends())
     sums += b.traits.threads == runtime::serial ? 1 : plan.threads.size();
   EXPECT_GT(sums, names.size());
   EXPECT_EQ(lines.size(), plan.interactions.size() * plan.M.size() * sums);
   for (const auto& l : lines) {
-    EXPECT_TRUE(l.ok) << l.backend << ": " << l.error;
+    EXPECT_TRUE(l.ok) << l.sum.backend << ": " << l.error;
     EXPECT_LE(l.share, 1);
   }
 }
@@ -55,7 +56,7 @@ TEST(verify, catches_a_dropped_a_doubled_and_a_sign_swapped_pair) {
     const auto lines = verify(broken, plan_for({std::string(name_of(f))}), perturbed(), ok);
     EXPECT_FALSE(ok) << name_of(f);
     for (const auto& l : lines) {
-      EXPECT_FALSE(l.ok) << l.backend << " with " << l.interaction << " M=" << l.M;
+      EXPECT_FALSE(l.ok) << l.sum.backend << " with " << l.sum.interaction << " M=" << l.sum.M;
       EXPECT_NE(l.error.find("of particle"), std::string::npos) << l.error;
     }
   }
@@ -68,7 +69,7 @@ TEST(verify, passes_the_same_test_backend_without_a_fault) {
 }
 
 TEST(verify, catches_a_backend_that_counts_one_pair_too_many) {
-  verify_plan plan = plan_for({"counts_one_too_many"});
+  run_request plan = plan_for({"counts_one_too_many"});
   plan.interactions = {"ferrari09"};
   bool ok = true;
   const auto lines = verify(lying_registry(), plan, perturbed(), ok);
@@ -82,7 +83,7 @@ TEST(verify, catches_a_backend_that_counts_one_pair_too_many) {
 }
 
 TEST(verify, catches_a_backend_whose_bits_change_with_the_threads_though_it_claims_they_do_not) {
-  verify_plan plan = plan_for({"claims_equal_bits"});
+  run_request plan = plan_for({"claims_equal_bits"});
   plan.interactions = {"ferrari09"};
   bool ok = true;
   const auto lines = verify(lying_registry(), plan, perturbed(), ok);

@@ -11,14 +11,15 @@ template <>
 struct Arbitrary<pairsum::test_kit::cloud> {
   static Gen<pairsum::test_kit::cloud> arbitrary() {
     using pairsum::test_kit::cloud;
-    return gen::build<cloud>(gen::set(&cloud::dim, gen::elementOf(pairsum::registry::instance().dims())),
-                             gen::set(&cloud::form, gen::elementOf(pairsum::test_kit::shapes)),
-                             gen::set(&cloud::fluid, gen::inRange(0u, 200u)),
-                             gen::set(&cloud::boundary, gen::inRange(0u, 100u)),
-                             gen::set(&cloud::length, gen::element(0.4, 1.0, 2.5, 4.0, 7.3, 20.0)),
-                             gen::set(&cloud::corner, gen::element(0.0, -0.5, 3.7, -1e3, 1e6, -1e9)),
-                             gen::set(&cloud::H, gen::element(0.1, 1.0, 0.01188, 50.0)),
-                             gen::set(&cloud::M, gen::inRange(2, 6)), gen::set(&cloud::seed, gen::inRange(1, 1000000)));
+    return gen::build<cloud>(
+        gen::set(&cloud::dim, gen::elementOf(pairsum::registry::instance().dims())),
+        gen::set(&cloud::form, gen::elementOf(pairsum::test_kit::shapes)),
+        gen::set(&cloud::fluid, gen::inRange(0u, 200u)), gen::set(&cloud::boundary, gen::inRange(0u, 100u)),
+        gen::set(&cloud::length, gen::element(0.4, 1.0, 2.5, 4.0, 7.3, 20.0)),
+        gen::set(&cloud::corner, gen::element(0.0, -0.5, 3.7, -1e3, 1e6, -1e9)),
+        gen::set(&cloud::H, gen::element(0.1, 1.0, 0.01188, 50.0)), gen::set(&cloud::M, gen::inRange(2, 6)),
+        gen::set(&cloud::seed, gen::inRange(1, 1000000)),
+        gen::set(&cloud::grid, gen::element<std::string>("hashed_grid", "hashed_grid", "dense_grid", "compact_grid")));
   }
 };
 }  // namespace rc

@@ -25,12 +25,15 @@ struct cloud {
   double H = 0.1;     ///< m
   int M = 3;
   std::uint64_t seed = 1;
+  std::string grid = "hashed_grid";
+
+  grid_choice choice() const { return {grid, M}; }
 };
 
 inline std::ostream& operator<<(std::ostream& o, const cloud& c) {
   return o << "cloud{" << c.dim << "D, shape " << static_cast<int>(c.form) << ", fluid " << c.fluid << ", boundary "
-           << c.boundary << ", length " << c.length << " H, corner " << c.corner << ", H " << c.H << ", M " << c.M
-           << ", seed " << c.seed << "}";
+           << c.boundary << ", length " << c.length << " H, corner " << c.corner << ", H " << c.H << ", " << c.grid
+           << ", M " << c.M << ", seed " << c.seed << "}";
 }
 
 /// Position of particle i as fractions of Omega's edges.
@@ -72,6 +75,7 @@ inline scene make_cloud(const cloud& c) {
   const counter_random state(c.seed, 2);
   scene s;
   s.world.constants.H = c.H;
+  s.world.grid = c.grid;
   s.world.M = c.M;
   const double edge = c.length * c.H;
   s.world.dim = c.dim;

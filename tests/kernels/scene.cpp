@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "sum/grids.hpp"
+
 namespace pairsum::test_kit {
 
 scene make_scene(std::string_view name, double dx, std::string_view state, std::uint64_t seed) {
@@ -19,9 +21,17 @@ scene make_scene(std::string_view name, double dx, std::string_view state, std::
   return s;
 }
 
-setup with(setup s, std::string_view backend, int M, std::string_view interaction) {
+std::vector<grid_choice> every_grid(const std::vector<int>& all_M) {
+  std::vector<grid_choice> all(all_M.begin(), all_M.end());
+  for (const std::string_view name : grid_names())
+    if (!grid_takes_M(name)) all.emplace_back(name, 0);
+  return all;
+}
+
+setup with(setup s, std::string_view backend, const grid_choice& grid, std::string_view interaction) {
   s.backend = backend;
-  s.M = M;
+  s.grid = grid.name;
+  s.M = grid.M;
   s.interaction = interaction;
   return s;
 }
@@ -39,10 +49,10 @@ std::vector<formula> formulas() {
   return all;
 }
 
-setup with(setup s, const formula& f, std::string_view backend, int M) {
+setup with(setup s, const formula& f, std::string_view backend, const grid_choice& grid) {
   s.precision = f.precision;
   s.smoothing = f.smoothing;
-  return with(s, backend, M, f.interaction);
+  return with(s, backend, grid, f.interaction);
 }
 
 std::vector<std::string> backend_names() {

@@ -1,7 +1,10 @@
 #pragma once
+#include <gtest/gtest.h>
+
 #include <memory>
 #include <ostream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "cases/case.hpp"
@@ -22,8 +25,31 @@ struct scene {
 /// A case as a scene; M is left at the setup's default.
 scene make_scene(std::string_view name, double dx, std::string_view state, std::uint64_t seed = 1);
 
+/// A grid, and the M of a grid that takes one; a number alone means the hashed grid with that M.
+struct grid_choice {
+  std::string name = "hashed_grid";
+  int M = 0;
+  grid_choice(int m) : M(m) {}  // NOLINT: an M is a choice
+  grid_choice(std::string_view grid, int m) : name(grid), M(m) {}
+};
+inline std::ostream& operator<<(std::ostream& o, const grid_choice& g) {
+  return g.M > 0 ? o << g.name << " M=" << g.M : o << g.name;
+}
+
+/// The hashed grid with each of these M, and every grid that takes none.
+std::vector<grid_choice> every_grid(const std::vector<int>& all_M);
+/// A test's parameters: a backend and a grid; their name as a test's.
+using backend_on_grid = std::tuple<std::string, grid_choice>;
+inline std::string name_of_test(const testing::TestParamInfo<backend_on_grid>& i) {
+  const grid_choice& g = std::get<1>(i.param);
+  return std::get<0>(i.param) + "_" + g.name + (g.M > 0 ? "_M" + std::to_string(g.M) : "");
+}
+
+/// The grids that take no M.
+inline std::vector<grid_choice> grids_without_M() { return every_grid({}); }
+
 /// The scene with other words in its setup.
-setup with(setup s, std::string_view backend, int M, std::string_view interaction = "ferrari09");
+setup with(setup s, std::string_view backend, const grid_choice& grid, std::string_view interaction = "ferrari09");
 
 /// What there is to sum, in one dimension and precision.
 struct formula {
@@ -38,7 +64,7 @@ inline std::ostream& operator<<(std::ostream& o, const formula& f) {
 std::vector<formula> formulas();
 
 /// The setup with a formula's words.
-setup with(setup s, const formula& f, std::string_view backend = "naive", int M = 4);
+setup with(setup s, const formula& f, std::string_view backend = "naive", const grid_choice& grid = 4);
 
 using pairsum::workers;
 

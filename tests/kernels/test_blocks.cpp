@@ -26,13 +26,13 @@ std::size_t conflicts(const blocks& pass, const cells<3>& c, std::size_t fluid) 
 
 blocks pass_of(const coloured_blocks<3>& all, unsigned colour) { return {all[colour].begin(), all[colour].end()}; }
 
-class blocks_test : public testing::TestWithParam<int> {
+class blocks_test : public testing::TestWithParam<grid_choice> {
  protected:
   indexed_scene s{make_scene("dam_break", 0.03, "perturbed"), GetParam()};
   coloured_blocks<3> coloured;
   void SetUp() override { coloured.build(s.index.view(), team()); }
 };
-INSTANTIATE_TEST_SUITE_P(M, blocks_test, testing::Values(2, 3, 6));
+INSTANTIATE_TEST_SUITE_P(grid, blocks_test, testing::ValuesIn(every_grid({2, 3, 6})));
 
 TEST_P(blocks_test, blocks_of_one_colour_write_different_particles) {
   std::size_t n = 0;
@@ -55,7 +55,7 @@ TEST_P(blocks_test, every_base_block_with_fluid_is_listed_once) {
   std::map<std::array<int, 3>, std::size_t> fluid_cells;
   for (std::size_t i = 0; i < s.index.fluid(); ++i) ++fluid_cells[s.cell_of(i)];
   std::set<std::array<int, 3>> bases;
-  const int mask = (1 << s.M) - 1;
+  const int mask = s.mask;
   for (const auto& [c, n] : fluid_cells)
     for (int o = 0; o < 8; ++o)
       bases.insert({(c[0] - (o & 1)) & mask, (c[1] - (o >> 1 & 1)) & mask, (c[2] - (o >> 2)) & mask});

@@ -15,7 +15,7 @@ class clouds_test : public testing::TestWithParam<std::string> {
     EXPECT_TRUE(rc::check(GetParam(), [&](const cloud& c) {
       const formula f = *rc::gen::suchThat(any_formula(c.dim), wanted);
       const scene s = make_cloud(c);
-      const setup world = with(s.world, f, GetParam(), c.M);
+      const setup world = with(s.world, f, GetParam(), c.choice());
       const auto sum = registry::instance().make_summation(world);
       if (f.interaction == "monaghan94" && touching(s.particles, f.precision)) {
         RC_ASSERT(says(error_of([&] { sum->load(s.particles, {}); }), {"fluid particle", "lies exactly on boundary"}));

@@ -18,8 +18,8 @@ TEST_P(determinism_test, fingerprint_is_the_same_for_every_number_of_threads) {
   const auto& traits = registry::instance().find_backend(GetParam()).traits;
   if (!traits.deterministic) GTEST_SKIP() << GetParam() << " does not claim to be deterministic";
   const scene s = make_scene("dam_break", 0.045, "perturbed");
-  for (const int M : {2, 4, 6}) {
-    const setup world = with(s.world, GetParam(), M);
+  for (const grid_choice& grid : every_grid({2, 4, 6})) {
+    const setup world = with(s.world, GetParam(), grid);
     const auto expected = evaluated(world, s.particles, 1)->fingerprint();
     const auto sum = registry::instance().make_summation(world);
     for (const int threads : {1, 2, 3, 7}) {
@@ -27,7 +27,7 @@ TEST_P(determinism_test, fingerprint_is_the_same_for_every_number_of_threads) {
       for (int run = 0; run < 3; ++run) {
         sum->load(s.particles, {});
         sum->evaluate(w.get());
-        ASSERT_EQ(sum->fingerprint(), expected) << "M=" << M << " threads=" << threads;
+        ASSERT_EQ(sum->fingerprint(), expected) << grid << " threads=" << threads;
         sum->evaluate(w.get());
         ASSERT_EQ(sum->fingerprint(), expected) << "second evaluation of the same state";
       }

@@ -30,7 +30,9 @@ class edge_cases_test : public testing::TestWithParam<formula> {
     const expectation e =
         registry::instance().make_reference(with(s.world, f))->brute_force(s.particles, some_threads());
     for (const std::string& backend : backend_names())
-      EXPECT_EQ(disagreement(evaluated(with(s.world, f, backend, 3), s.particles, 3)->rates(), e), "") << backend;
+      for (const grid_choice& grid : every_grid({3}))
+        EXPECT_EQ(disagreement(evaluated(with(s.world, f, backend, grid), s.particles, 3)->rates(), e), "")
+            << backend << " " << grid;
   }
   std::string refusal(const scene& s) const {
     return error_of([&] { (void)evaluated(with(s.world, f, "symmetric_omp", 3), s.particles); });

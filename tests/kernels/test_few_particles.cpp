@@ -8,10 +8,13 @@ namespace {
 
 using namespace test_kit;
 
-class few_particles_test : public testing::TestWithParam<std::string> {
+class few_particles_test : public testing::TestWithParam<backend_on_grid> {
  protected:
   static std::unique_ptr<summation> sum_of(const scene& s, const std::string& interaction = "ferrari09") {
-    return evaluated(with(s.world, GetParam(), 3, interaction), s.particles, 7);
+    return evaluated(on_grid(s.world, interaction), s.particles, 7);
+  }
+  static setup on_grid(const setup& world, const std::string& interaction) {
+    return with(world, std::get<0>(GetParam()), std::get<1>(GetParam()), interaction);
   }
   static scene some(std::uint32_t fluid, std::uint32_t boundary) {
     cloud c;
@@ -21,8 +24,9 @@ class few_particles_test : public testing::TestWithParam<std::string> {
     return make_cloud(c);
   }
 };
-INSTANTIATE_TEST_SUITE_P(backend, few_particles_test, testing::ValuesIn(backend_names()),
-                         [](const auto& i) { return i.param; });
+INSTANTIATE_TEST_SUITE_P(every, few_particles_test,
+                         testing::Combine(testing::ValuesIn(backend_names()), testing::ValuesIn(every_grid({3}))),
+                         name_of_test);
 
 TEST_P(few_particles_test, none) {
   const auto sum = sum_of(some(0, 0));
@@ -65,7 +69,7 @@ TEST_P(few_particles_test, two_fluid) {
 /// A second load must not see the first: fewer particles after more, then more again.
 TEST_P(few_particles_test, loads_replace_each_other) {
   const scene many = some(90, 40);
-  const auto sum = registry::instance().make_summation(with(many.world, GetParam(), 3, "count"));
+  const auto sum = registry::instance().make_summation(on_grid(many.world, "count"));
   workers w(sum->traits().threads, 2);
   for (const auto& [fluid, boundary] : {std::pair{90u, 40u}, {0u, 0u}, {3u, 2u}, {0u, 5u}, {90u, 40u}}) {
     sum->load(some(fluid, boundary).particles, {});

@@ -4,8 +4,9 @@
 
 #include "cloud.hpp"
 
-// Every backend x M x threads x dimension x precision x interaction x smoothing kernel that is built, on about 2000
-// particles, against an O(N^2) reference of the same precision and expression.
+// Every backend x grid (hashed with several M, and those without) x threads x dimension x precision x interaction x
+// smoothing kernel that is built, on about 2000 particles, against an O(N^2) reference of the same precision and
+// expression.
 namespace pairsum {
 namespace {
 
@@ -26,13 +27,13 @@ class formula_matrix_test : public testing::TestWithParam<formula> {};
 INSTANTIATE_TEST_SUITE_P(every, formula_matrix_test, testing::ValuesIn(formulas()),
                          [](const auto& i) { return testing::PrintToString(i.param); });
 
-TEST_P(formula_matrix_test, every_backend_agrees_for_every_M_and_thread_count) {
+TEST_P(formula_matrix_test, every_backend_agrees_for_every_grid_and_thread_count) {
   const formula& f = GetParam();
   const scene s = crowd(f.dim);
   const expectation e = registry::instance().make_reference(with(s.world, f))->brute_force(s.particles, some_threads());
   for (const std::string& backend : backend_names())
-    for (const int M : {2, 3, 5, 7}) {
-      const auto sum = registry::instance().make_summation(with(s.world, f, backend, M));
+    for (const grid_choice& grid : every_grid({2, 3, 5, 7})) {
+      const auto sum = registry::instance().make_summation(with(s.world, f, backend, grid));
       const bool serial = sum->traits().threads == runtime::serial;
       std::uint64_t bits = 0;
       for (const int threads : {1, 2, 3, 7}) {
@@ -40,15 +41,15 @@ TEST_P(formula_matrix_test, every_backend_agrees_for_every_M_and_thread_count) {
         workers w(sum->traits().threads, threads);
         sum->load(s.particles, {});
         sum->evaluate(w.get());
-        ASSERT_EQ(disagreement(sum->rates(), e), "") << backend << " M=" << M << " threads=" << threads;
+        ASSERT_EQ(disagreement(sum->rates(), e), "") << backend << " " << grid << " threads=" << threads;
         if (threads == 1) bits = sum->fingerprint();
         if (sum->traits().deterministic) {
-          ASSERT_EQ(sum->fingerprint(), bits) << backend << " M=" << M << " threads=" << threads;
+          ASSERT_EQ(sum->fingerprint(), bits) << backend << " " << grid << " threads=" << threads;
         }
       }
       const work_counts n = sum->count_work();
-      ASSERT_EQ(n.pairs_fluid_fluid, e.pairs_fluid_fluid) << backend << " M=" << M;
-      ASSERT_EQ(n.pairs_fluid_boundary, e.pairs_fluid_boundary) << backend << " M=" << M;
+      ASSERT_EQ(n.pairs_fluid_fluid, e.pairs_fluid_fluid) << backend << " " << grid;
+      ASSERT_EQ(n.pairs_fluid_boundary, e.pairs_fluid_boundary) << backend << " " << grid;
     }
 }
 

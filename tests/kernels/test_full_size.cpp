@@ -36,18 +36,21 @@ const expectation& expected_rates() {
   return e;
 }
 
+const grid_choice dense{"dense_grid", 0}, compact{"compact_grid", 0};
+
 struct expected_work {
-  int M;
+  grid_choice grid;
   std::uint64_t symmetric, naive;
 };
 
 TEST(full_size, every_backend_finds_the_known_numbers_of_pairs) {
   const scene& s = full_size("rest");
   for (const expected_work& e : {expected_work{6, 182508938, 284698438}, expected_work{7, 135107738, 237297238},
-                                 expected_work{9, 111877100, 214066600}}) {
+                                 expected_work{9, 111877100, 214066600}, expected_work{dense, 111877100, 214066600},
+                                 expected_work{compact, 111877100, 214066600}}) {
     for (const std::string& name : backend_names()) {
-      SCOPED_TRACE(name + " M=" + std::to_string(e.M));
-      const auto sum = registry::instance().make_summation(with(s.world, name, e.M));
+      SCOPED_TRACE(name + " " + testing::PrintToString(e.grid));
+      const auto sum = registry::instance().make_summation(with(s.world, name, e.grid));
       workers w(sum->traits().threads, 2);
       sum->load(s.particles, {});
       sum->index(w.get());
@@ -56,8 +59,10 @@ TEST(full_size, every_backend_finds_the_known_numbers_of_pairs) {
       EXPECT_EQ(n.pairs_fluid_boundary, 860542u);
       EXPECT_EQ(n.pairs_interacting(), 13592338u);
       EXPECT_EQ(n.pairs_tested, sum->traits().symmetric ? e.symmetric : e.naive);
-      EXPECT_EQ(n.cells, std::uint64_t{1} << 3 * e.M);
-      if (e.M != 9) continue;
+      EXPECT_EQ(n.cells, e.grid.M > 0                  ? std::uint64_t{1} << 3 * e.grid.M
+                         : e.grid.name == "dense_grid" ? 274u * 152 * 51
+                                                       : n.cells_nonempty);
+      if (e.grid.M != 9) continue;
       const auto unfolded = sum->count_unfolded_tests();
       ASSERT_TRUE(unfolded);
       EXPECT_EQ(unfolded->symmetric, e.symmetric);

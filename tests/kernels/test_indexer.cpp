@@ -12,17 +12,27 @@ namespace {
 using namespace test_kit;
 using key = std::array<int, 3>;
 
-class indexer_test : public testing::TestWithParam<int> {
+class indexer_test : public testing::TestWithParam<grid_choice> {
  protected:
   indexed_scene s{make_scene("dam_break", 0.05, "perturbed"), GetParam(), team::omp(3)};
   const cells<3>& c = s.index.view();
 
+  /// Cells of the box around all particles.
+  std::size_t box_cells() const {
+    std::size_t n = 1;
+    for (int d = 0; d < 3; ++d) {
+      std::set<int> seen;
+      for (std::size_t i = 0; i < s.particles.size(); ++i) seen.insert(s.cell_of(i)[d]);
+      n *= static_cast<std::size_t>(*seen.rbegin() - *seen.begin() + 1);
+    }
+    return n;
+  }
   key key_of(std::size_t cell) const {
     const cell_range& r = c.range[cell];
     return s.cell_of(r.fluid() > 0 ? r.fluid_begin : r.boundary_begin);
   }
 };
-INSTANTIATE_TEST_SUITE_P(M, indexer_test, testing::Values(2, 3, 5, 7));
+INSTANTIATE_TEST_SUITE_P(grid, indexer_test, testing::ValuesIn(every_grid({2, 3, 5, 7})));
 
 TEST_P(indexer_test, fluid_before_boundary_before_lost) {
   s.particles.x[1][5] = -1;  // two fluid particles leave
@@ -60,7 +70,10 @@ TEST_P(indexer_test, cells_partition_the_particles_in_contiguous_ranges) {
   ASSERT_EQ(boundary.size(), s.index.boundary());
   EXPECT_EQ(*boundary.begin(), s.index.fluid());
   EXPECT_EQ(c.nonempty(), c.range.size() - 1);
-  EXPECT_EQ(c.total, std::size_t{1} << 3 * GetParam());
+  const grid_choice& grid = GetParam();
+  EXPECT_EQ(c.total, grid.M > 0                  ? std::size_t{1} << 3 * grid.M
+                     : grid.name == "dense_grid" ? box_cells()
+                                                 : c.nonempty());
 }
 
 TEST_P(indexer_test, every_particle_is_in_the_cell_of_its_position) {
@@ -77,7 +90,7 @@ TEST_P(indexer_test, every_particle_is_in_the_cell_of_its_position) {
 TEST_P(indexer_test, neighbours_and_colours_are_those_of_the_torus) {
   std::map<key, std::uint32_t> at;
   for (std::uint32_t cell = 1; cell < c.range.size(); ++cell) at[key_of(cell)] = cell;
-  const int mask = (1 << GetParam()) - 1;
+  const int mask = s.mask;
   for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) {
     const key own = key_of(cell);
     ASSERT_EQ(c.colour[cell], (own[0] & 1) | (own[1] & 1) << 1 | (own[2] & 1) << 2);

@@ -12,10 +12,10 @@ namespace {
 
 using namespace test_kit;
 
-class lost_test : public testing::TestWithParam<std::string> {
+class lost_test : public testing::TestWithParam<backend_on_grid> {
  protected:
   scene s = make_scene("dam_break", 0.08, "perturbed");
-  setup world = with(s.world, GetParam(), 4);
+  setup world = with(s.world, std::get<0>(GetParam()), std::get<1>(GetParam()));
 
   /// Sets component d of the position of the particle with this id, as a step would.
   static void place(summation& sum, std::uint32_t id, int d, double x) {
@@ -26,7 +26,9 @@ class lost_test : public testing::TestWithParam<std::string> {
     });
   }
 };
-INSTANTIATE_TEST_SUITE_P(backend, lost_test, testing::ValuesIn(backend_names()), [](const auto& i) { return i.param; });
+INSTANTIATE_TEST_SUITE_P(every, lost_test,
+                         testing::Combine(testing::ValuesIn(backend_names()), testing::ValuesIn(every_grid({4}))),
+                         name_of_test);
 
 TEST_P(lost_test, are_flagged_counted_and_not_summed) {
   const auto sum = evaluated(world, s.particles, 2);

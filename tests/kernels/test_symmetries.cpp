@@ -40,8 +40,9 @@ class symmetries_test : public testing::TestWithParam<std::string> {
       property(f, c, s, oracle->brute_force(s.particles, team()));
     }));
   }
-  static rate_table rates(const scene& s, const formula& f, int M, const std::vector<std::uint32_t>& order = {}) {
-    const auto sum = registry::instance().make_summation(with(s.world, f, GetParam(), M));
+  static rate_table rates(const scene& s, const formula& f, const grid_choice& grid,
+                          const std::vector<std::uint32_t>& order = {}) {
+    const auto sum = registry::instance().make_summation(with(s.world, f, GetParam(), grid));
     workers w(sum->traits().threads, 1);
     sum->load(s.particles, order);
     sum->evaluate(w.get());
@@ -53,8 +54,8 @@ INSTANTIATE_TEST_SUITE_P(backend, symmetries_test, testing::ValuesIn(backend_nam
 
 TEST_P(symmetries_test, order_of_the_input_changes_nothing_but_rounding) {
   holds([](const formula& f, const cloud& c, const scene& s, const expectation& e) {
-    RC_ASSERT(disagreement(rates(s, f, c.M, shuffled(s.particles.size(), c.seed)), e) == "");
-    RC_ASSERT(disagreement(rates(s, f, c.M, shuffled(s.particles.size(), c.seed + 1)), e) == "");
+    RC_ASSERT(disagreement(rates(s, f, c.choice(), shuffled(s.particles.size(), c.seed)), e) == "");
+    RC_ASSERT(disagreement(rates(s, f, c.choice(), shuffled(s.particles.size(), c.seed + 1)), e) == "");
   });
 }
 
@@ -67,7 +68,7 @@ TEST_P(symmetries_test, moving_everything_by_cells_changes_nothing_but_rounding)
     }
     moved.world.omega_low.assign(c.dim, -2);  // Omega stays where it is, so the cells under the particles are others
     moved.world.omega_high.assign(c.dim, 2);
-    RC_ASSERT(disagreement(rates(moved, f, c.M), e) == "");
+    RC_ASSERT(disagreement(rates(moved, f, c.choice()), e) == "");
   });
 }
 
@@ -77,7 +78,7 @@ TEST_P(symmetries_test, a_mirror_turns_one_component_round) {
     scene mirrored = s;
     for (double& a : mirrored.particles.x[axis]) a = -a;
     for (double& a : mirrored.particles.v[axis]) a = -a;
-    rate_table u = rates(mirrored, f, c.M);
+    rate_table u = rates(mirrored, f, c.choice());
     if (f.interaction != "count")
       for (double& a : u.columns[1 + axis]) a = -a;
     RC_ASSERT(disagreement(u, e) == "");
@@ -90,7 +91,7 @@ TEST_P(symmetries_test, fluid_pairs_conserve_momentum) {
     const formula f = *rc::gen::suchThat(any_formula(c.dim), [](const formula& a) { return a.interaction != "count"; });
     const scene s = dyadic_cloud(c);
     const expectation e = registry::instance().make_reference(with(s.world, f))->brute_force(s.particles, team());
-    const rate_table u = rates(s, f, c.M);
+    const rate_table u = rates(s, f, c.choice());
     const double mass_rounding = f.precision == "float" ? 1e-7 : 2e-16;  // the particles' masses are rounded, too
     for (int d = 0; d < c.dim; ++d) {
       long double rate = 0, bound = 0;

@@ -13,8 +13,8 @@ struct work {
   std::uint64_t cells = 0, fluid_cells = 0, cell_pairs = 0, fluid_tests = 0, boundary_tests = 0;
 };
 
-work by_hand(const scene& s, int M) {
-  const indexed_scene indexed(s, M);
+work by_hand(const scene& s, const grid_choice& grid) {
+  const indexed_scene indexed(s, grid);
   struct content {
     std::uint64_t fluid = 0, boundary = 0;
   };
@@ -25,7 +25,7 @@ work by_hand(const scene& s, int M) {
   }
   work n;
   n.cells = cell.size();
-  const int mask = (1 << M) - 1;
+  const int mask = indexed.mask;
   for (const auto& [at, own] : cell) {
     n.fluid_cells += own.fluid > 0;
     n.fluid_tests += own.fluid * (own.fluid - (own.fluid > 0)) / 2;
@@ -50,13 +50,17 @@ INSTANTIATE_TEST_SUITE_P(backend, work_counts_test, testing::ValuesIn(backend_na
 TEST_P(work_counts_test, are_those_of_the_cells) {
   const scene s = make_scene("dam_break", 0.05, "perturbed");
   const auto oracle = registry::instance().make_reference(s.world)->cell_search(s.particles, some_threads());
-  for (const int M : {2, 3, 4, 6}) {
-    const work expected = by_hand(s, M);
-    const auto sum = evaluated(with(s.world, GetParam(), M), s.particles, 2);
+  for (const grid_choice& grid : every_grid({2, 3, 4, 6})) {
+    const work expected = by_hand(s, grid);
+    const auto sum = evaluated(with(s.world, GetParam(), grid), s.particles, 2);
     const auto fingerprint = sum->fingerprint();
     const work_counts n = sum->count_work();
-    SCOPED_TRACE("M=" + std::to_string(M));
-    EXPECT_EQ(n.cells, std::uint64_t{1} << 3 * M);
+    SCOPED_TRACE(testing::PrintToString(grid));
+    if (grid.M > 0) {
+      EXPECT_EQ(n.cells, std::uint64_t{1} << 3 * grid.M);
+    } else if (grid.name == "compact_grid") {
+      EXPECT_EQ(n.cells, expected.cells);
+    }
     EXPECT_EQ(n.cells_nonempty, expected.cells);
     EXPECT_EQ(n.pairs_fluid_fluid, oracle.pairs_fluid_fluid);
     EXPECT_EQ(n.pairs_fluid_boundary, oracle.pairs_fluid_boundary);
@@ -67,6 +71,10 @@ TEST_P(work_counts_test, are_those_of_the_cells) {
     } else {
       EXPECT_EQ(n.sumF1 + n.sumF2, 0u);
       EXPECT_EQ(n.pairs_tested, 2 * expected.fluid_tests + expected.boundary_tests);
+    }
+    if (grid.M == 0 || grid.M == 6) {  // which folds nothing either
+      const auto unfolded = sum->count_unfolded_tests().value();
+      EXPECT_EQ(n.pairs_tested, sum->traits().symmetric ? unfolded.symmetric : unfolded.gather);
     }
     EXPECT_EQ(sum->fingerprint(), fingerprint) << "counting must not disturb the rates";
   }

@@ -4,6 +4,7 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import platform
 import shlex
 import subprocess
 
@@ -11,6 +12,9 @@ import pytest
 
 SOURCE = pathlib.Path(os.environ["PAIRSUM_SOURCE"])
 BUILD = pathlib.Path(os.environ["PAIRSUM_BUILD"])
+
+
+VECTOR_UNITS = ["-msse4.2", "-maes", "-mpclmul"] if platform.machine() == "x86_64" else []  # kernels/vector needs some
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +34,7 @@ def compiler():
                 folders.append((word,))
     folders = [word for pair in dict.fromkeys(folders) for word in pair]
     assert folders, "compile_commands.json names no include folder"
-    return [words[0], "-std=c++20", "-fopenmp", "-fsyntax-only", "-w", "-DEIGEN_DONT_VECTORIZE", *folders, "-x", "c++"]
+    return [words[0], "-std=c++20", "-fopenmp", "-fsyntax-only", "-w", "-DEIGEN_DONT_VECTORIZE", *VECTOR_UNITS, *folders, "-x", "c++"]
 
 
 def complaints(compiler, paths):

@@ -19,7 +19,8 @@ ALLOWED = {  # folder: folders it may include, besides itself
     "cases": ["core", "particles", "eos"],
     "grid": ["core", "pattern", "particles"],
     "sum": ["core", "pattern", "particles", "eos", "smoothing", "interactions", "grid", "cases"],
-    "backends": ["core", "pattern", "particles", "grid", "interactions", "sum"],
+    "vector": ["core", "pattern", "particles", "grid", "interactions", "sum"],
+    "backends": ["core", "pattern", "particles", "grid", "interactions", "sum", "vector"],
     "integrators": ["core", "particles", "sum"],
     "harness/rows": ["core"],
     "harness/stats": ["core"],
@@ -31,13 +32,15 @@ ALLOWED = {  # folder: folders it may include, besides itself
     "harness/self_test": ["core", "particles", "sum", "harness/measure"],
     "harness/run": ["core", "cases", "integrators", "sum", "harness/rows", "harness/plan", "harness/measure", "harness/verify",
                     "harness/stats", "harness/environment", "harness/model", "harness/self_test"],
+    "harness/tune": ["core", "cases", "sum", "harness/rows", "harness/plan", "harness/measure", "harness/verify", "harness/stats",
+                     "harness/environment", "harness/run"],
     "harness/report": ["core", "sum", "harness/rows", "harness/stats", "harness/model", "harness/self_test"],
     "harness/cli": ["core", "cases", "integrators", "sum", "harness/*"],
     "harness/gbench": ["core", "cases", "integrators", "sum", "harness/*", "grid", "smoothing", "particles"],
 }
 NO_BACKEND_INCLUDES_ANOTHER = "backends"
 DOOR = {"sum/registry.hpp", "sum/setup.hpp", "sum/summation.hpp", "sum/reference.hpp", "sum/setup_of.hpp", "sum/rate_table.hpp", "sum/grids.hpp",
-        "sum/check.hpp", "sum/probe.hpp", "sum/backend.hpp", "sum/costs.hpp"}
+        "sum/check.hpp", "sum/block_shape.hpp", "sum/probe.hpp", "sum/backend.hpp", "sum/costs.hpp", "sum/profile.hpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 FORBIDDEN_IN_LIBRARY = re.compile(r"#\s*include\s+<(chrono|iostream|fstream|cstdio|filesystem)>|\bgetenv\b|\bprintf\s*\(")
 

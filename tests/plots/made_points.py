@@ -11,8 +11,8 @@ def spread(value, intervals, width=0.03):
     return {"low": value * (1 - width), "high": value * (1 + width)}
 
 
-def point(place, series, backend, m, threads, intervals, granularity=None, slower=1.0):
-    """Return one entry; place is (state, dx)."""
+def point(place, series, backend, m, threads, intervals, granularity=None, slower=1.0, grid="hashed_grid"):
+    """Return one entry; place is (state, dx). A grid that takes no M folds nothing: m = 9 makes its numbers."""
     (state, dx), granularity = place, granularity or USUAL[runtime(backend)]
     fluid, boundary, pairs = WORLDS[dx]
     total = sum_time(state, backend, m, threads, dx, granularity, slower)
@@ -31,8 +31,8 @@ def point(place, series, backend, m, threads, intervals, granularity=None, slowe
     where = {"case": "dam_break", "state": state, "dx": dx, "H": 2 * dx, "n_fluid": fluid,
              "n_boundary": boundary, "order": "lattice", "dim": 3, "precision": "double",
              "interaction": "ferrari09", "smoothing": "wendland_c2", "integrator": "euler", "dt": 1e-05,
-             "backend": backend, "grid": "hashed_grid", "M": m, "threads": threads, "isa": "avx512",
-             "granularity": granularity}
+             "backend": backend, "grid": grid, "M": m if grid == "hashed_grid" else None, "threads": threads, "isa": "avx512",
+             "granularity": granularity, "block": "auto" if backend.startswith("tiles") else "none"}
     return {"point": where, "study": "made", "series": series, "rounds": 6, "repetitions": 1,
             "steps": 5, "phases": phases, "ns_per_pair": 1e9 * total / pairs,
             "ns_per_pair_parts": per_pair, "useful_pair_ratio": pairs / tested, "work": work,

@@ -48,6 +48,10 @@ def full(ms=MS):
     copy = made_points.point(("rest", 0.00594), 0, "symmetric_omp", 7, 4, True, slower=1.05)
     copy["point"]["backend"] = "slowed_5_symmetric_omp"
     data["points"].append(copy)
+    compact = [made_points.point(("rest", 0.00594), 0, backend, 9, threads, True, slower=0.6, grid="compact_grid")
+               for backend in ("symmetric_omp", "tiles_omp") for threads in (1, 2, 4)]
+    data["points"] += compact
+    data["speedup"] += made_tables.speedups(compact, True)
     data["compiler_comparison"] = made_tables.compilers(data, clang)
     data["caveats"] += ["the machine was shared: other processes took up to 1.3 % of its time",
                         "no counters: perf_event_open is not permitted",

@@ -1,6 +1,6 @@
 """The tables, the answer, the questions and the self-test of a made summary."""
 from made_points import spread
-from made_worlds import bandwidth, family, peak, runtime
+from made_worlds import GATHER, bandwidth, family, peak, runtime
 
 _PLACE = ("case", "state", "dx")
 
@@ -11,13 +11,19 @@ def tables(data, intervals):
     algorithm = [row for entry in data["points"] for row in _algorithm(entry, times, intervals)]
     return {"speedup": [_speedup(entry, times, intervals) for entry in data["points"]],
             "algorithm_speedup": algorithm, "runtime_comparison": _runtimes(data, times, intervals),
-            "m_comparison": [_m_row(entry) for entry in data["points"]],
+            "m_comparison": [_m_row(entry) for entry in data["points"] if entry["point"]["M"] is not None],
             "self_test": self_test(intervals), "answer": _answer(data, times, intervals),
             "questions": [
                 {"question": "Is the symmetric sum twice as fast here?",
                  "answer": "No: symmetric (M=7) takes 0.41 s, naive (M=7) 0.53 s; 1.3 times, not 2."},
                 {"question": "Does folding cost time?",
                  "answer": "Yes with M = 5 and 6: a third of the distance tests are of folded cells."}]}
+
+
+def speedups(entries, intervals):
+    """Return the rows of "speedup" of points alone."""
+    times = {_key(entry): entry["phases"]["sum_s"]["median"] for entry in entries}
+    return [_speedup(entry, times, intervals) for entry in entries]
 
 
 def _key(entry, **other):
@@ -42,10 +48,9 @@ def _speedup(entry, times, intervals):
 
 def _algorithm(entry, times, intervals):
     point = entry["point"]
-    if family(point["backend"]) == "naive" or point["M"] != 6:
+    kind, base = runtime(point["backend"]), GATHER.get(point["backend"])
+    if base is None or point["M"] != 6:
         return
-    kind = runtime(point["backend"])
-    base = "naive" if kind == "serial" else f"naive_{kind}"
     for base_m in (6, 7):
         if _key(entry, backend=base, M=base_m) in times:
             before, now = times[_key(entry, backend=base, M=base_m)], times[_key(entry)]
@@ -59,8 +64,9 @@ def _runtimes(data, times, intervals):
     rows = []
     for entry in data["points"]:
         point = entry["point"]
-        if runtime(point["backend"]) == "omp":
-            omp, tbb = times[_key(entry)], times[_key(entry, backend=family(point["backend"]) + "_tbb")]
+        other = _key(entry, backend=family(point["backend"]) + "_tbb")
+        if runtime(point["backend"]) == "omp" and other in times:
+            omp, tbb = times[_key(entry)], times[other]
             rows.append({**{key: point[key] for key in (*_PLACE, "M", "threads")},
                          "series": entry["series"], "algorithm": family(point["backend"]),
                          "omp_time_s": omp, "tbb_time_s": tbb, "ratio": omp / tbb,

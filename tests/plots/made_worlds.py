@@ -2,13 +2,16 @@
 import hashlib
 
 SERIAL = ("naive", "pair_list", "sphysics_sweep", "ppm_stencil", "symmetric")
-PARALLEL = ("naive_omp", "naive_tbb", "symmetric_omp", "symmetric_tbb")
+PARALLEL = ("naive_omp", "naive_tbb", "symmetric_omp", "symmetric_tbb", "tiles_omp", "tiles_tbb", "naive_tiles_omp")
+#: What a symmetric sum is compared with.
+GATHER = {"symmetric": "naive", "symmetric_omp": "naive_omp", "symmetric_tbb": "naive_tbb",
+          "tiles_omp": "naive_tiles_omp"}
 BACKENDS = SERIAL + PARALLEL
 MS = (5, 6, 7, 8, 9)
 #: dx in m -> fluid particles, boundary particles, interacting pairs
 WORLDS = {0.00594: (1000000, 1014966, 13592338), 0.01188: (117649, 255188, 1591212)}
 USUAL = {"omp": "dynamic:32", "tbb": "auto", "serial": "none"}
-_NS = {"naive": 39.3, "pair_list": 31.0, "sphysics_sweep": 30.6, "ppm_stencil": 30.9, "symmetric": 29.8}
+_NS = {"naive": 39.3, "pair_list": 31.0, "sphysics_sweep": 30.6, "ppm_stencil": 30.9, "symmetric": 29.8, "tiles": 9.7, "naive_tiles": 13.1}
 _BANDWIDTH = {1: 11.2e9, 2: 19.8e9, 4: 27.1e9, 8: 34e9, 16: 38e9}
 _FLOPS = 41e9
 

@@ -7,6 +7,7 @@ import choice
 import compilers
 import drawing
 import granularity
+import ladder
 import made_summary
 import roofline
 import self_test
@@ -108,13 +109,43 @@ def test_a_granularity_is_schedule_and_chunk(word, parts):
 
 
 def test_other_figures_show_the_usual_granularity_only(full):
-    assert usual.of_backends(full)["symmetric_omp"] == "dynamic:32"
+    assert usual.of_backends(full, "granularity")["symmetric_omp"] == "dynamic:32"
     assert usual.text(full) == "symmetric_omp dynamic:32, symmetric_tbb auto"
     extra = dict(full["speedup"][-1], granularity="simple:8", speedup=77.0, low=None, high=None)
     changed = {**full, "speedup": [*full["speedup"], extra]}
     drawn = [y for axes in speedup.draw(changed).axes for spots in artists.lines(axes).values()
              for _, y in spots]
     assert 77.0 not in drawn and len(drawn) > 40
+
+
+def test_of_as_many_points_the_faster_isa_is_the_usual(full):
+    tiles = [entry for entry in full["points"] if entry["point"]["backend"] == "tiles_omp"]
+    slow = [{**entry, "point": {**entry["point"], "isa": "avx2"},
+             "phases": {**entry["phases"], "sum_s": {"median": 9.0, "low": None, "high": None}}} for entry in tiles]
+    both = {**full, "points": slow + full["points"]}
+    assert usual.of_backends(both, "isa")["tiles_omp"] == "avx512"
+    assert "tiles_omp avx512" in usual.text(both)
+    keeps = usual.is_usual(both)
+    assert keeps(tiles[0]["point"]) and not keeps(slow[0]["point"])
+
+
+def test_the_ladder_takes_the_best_grid_and_names_it(full):
+    (axes,) = [axes for axes in ladder.draw(full).axes[:1]]
+    names = [label.get_text() for label in axes.get_yticklabels()]
+    assert any(name.startswith("tiles_omp, compact_grid, ") for name in names), names
+    assert all(name.count("tiles_omp, ") <= 1 for name in names)
+
+
+def test_a_grid_without_m_has_panels_of_its_own(full):
+    titles = artists.panels(speedup.draw(full))
+    assert any("compact_grid" in title and "M=" not in title for title in titles), list(titles)
+    assert any("hashed_grid" in title and "M=7" in title for title in titles), list(titles)
+
+
+def test_a_summary_of_before_there_were_blocks_is_drawn(two):
+    for entry in two["points"]:
+        entry["point"].pop("block", None)
+    assert drawing.of(ladder, two).axes
 
 
 def test_speedup_shows_how_the_machine_scales(full):

@@ -43,10 +43,33 @@ TEST_F(report, points_that_cannot_be_told_from_the_best_are_named) {
   const json a =
       summary_of({{"naive_omp", 7, 2, 1.0}, {"symmetric_omp", 7, 2, 0.5}, {"symmetric_omp", 6, 2, 0.5}})["answer"];
   EXPECT_EQ(a["M"], 6);
-  EXPECT_EQ(a["ties"],
-            json::array({{{"backend", "symmetric_omp"}, {"M", 7}, {"threads", 2}, {"granularity", "dynamic:32"}}}));
+  EXPECT_EQ(a["ties"], json::array({{{"backend", "symmetric_omp"},
+                                     {"grid", "hashed_grid"},
+                                     {"M", 7},
+                                     {"threads", 2},
+                                     {"granularity", "dynamic:32"},
+                                     {"isa", "native"},
+                                     {"block", "none"}}}));
   EXPECT_CONTAINS(a["details"].get<std::string>(),
                   "No difference was resolved from symmetric_omp with M = 7 and 2 threads.");
+}
+
+TEST_F(report, a_grid_without_M_is_named_in_its_place) {
+  const auto compact = [](sample& s) { s.point.grid = "compact_grid"; };
+  const auto wide = [](sample& s) { s.point.grid = "compact_grid", s.point.block = "slab:4"; };
+  const json s = summary_of({{"naive_omp", 7, 2, 1.0},
+                             {"symmetric_omp", 0, 1, 0.9, 6, compact},
+                             {"symmetric_omp", 0, 2, 0.5, 6, compact},
+                             {"symmetric_omp", 0, 2, 0.7, 6, wide}});
+  const json& a = s["answer"];
+  EXPECT_TRUE(a["M"].is_null());
+  EXPECT_EQ(a["grid"], "compact_grid");
+  EXPECT_CONTAINS(a["text"].get<std::string>(), "take symmetric_omp none on compact_grid and 2 threads: 2.00 times");
+  EXPECT_EQ(s["m_comparison"].size(), 1u) << "of those with an M";
+  EXPECT_CONTAINS(text_, "symmetric_omp/compact_grid slab:4  -");
+  EXPECT_CONTAINS(text_, "M=7");
+  EXPECT_EQ(text_.find("M=0"), std::string::npos) << text_;
+  EXPECT_EQ(text_.find("M = 0"), std::string::npos) << text_;
 }
 
 TEST_F(report, the_naive_backend_can_be_the_best_itself) {

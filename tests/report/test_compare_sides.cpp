@@ -128,7 +128,7 @@ TEST_F(compared, files_without_a_common_point_are_refused) {
   const std::string a = put_build("a.jsonl", build('1', "GNU 12.2.0"), 1.0);
   const std::string b = put_build("b.jsonl", build('1', "GNU 12.2.0"), 1.0, "symmetric");
   EXPECT_CONTAINS(message_of([&] { compare(a, b); }),
-                  "have no point in common (same study, case, dx, M, threads, backend)");
+                  "have no point in common (same study, case, dx, grid, M, threads, backend)");
 }
 
 }  // namespace

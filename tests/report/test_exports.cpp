@@ -84,7 +84,8 @@ TEST_F(report, tables_are_written_as_csv) {
   const json s = summary_of(talk());
   const std::string text = get(file("out/csv/speedup.csv"));
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(text, '\n')), s["speedup"].size() + 1);
-  EXPECT_EQ(text.find("M,backend,base_backend,base_threads,base_time_s,case,confidence,dx,efficiency,"), 0u) << text;
+  EXPECT_EQ(text.find("M,backend,base_backend,base_threads,base_time_s,block,case,confidence,dx,efficiency,"), 0u)
+      << text;
   EXPECT_CONTAINS(get(file("out/csv/points.csv")), ",phases.sum_s.median,");
   EXPECT_EQ(get(file("out/tables.txt")), text_);
 }

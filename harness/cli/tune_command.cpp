@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/isa.hpp"
+#include "core/names.hpp"
+#include "harness/cli/commands.hpp"
+#include "harness/environment/machine.hpp"
+#include "harness/plan/levels.hpp"
+#include "harness/report/whole_file.hpp"
+#include "harness/run/interrupt.hpp"
+#include "harness/tune/profile_json.hpp"
+#include "harness/tune/tune_text.hpp"
+#include "sum/grids.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+struct tune_option {
+  const char *key, *standard, *what;
+};
+
+constexpr tune_option tune_options[] = {
+    {"case", "dam_break", "initial condition (pairsum list)"},
+    {"dx", "0.02", "particle spacing in m; 0.00594 is the talk's 2,014,966 particles"},
+    {"state", "rest", "rest or perturbed"},
+    {"dim", "3", "dimension"},
+    {"H", "0", "support radius in m (0: 2 dx)"},
+    {"interaction", "ferrari09", "pair interaction"},
+    {"smoothing", "wendland_c2", "smoothing kernel"},
+    {"order", "lattice", "order of memory at the start: lattice, shuffled, morton"},
+    {"outside", "error", "particles outside Omega: error or drop"},
+    {"seed", "1", "of the perturbation, of random places and of the order of measuring"},
+    {"backend", "all", "backends to choose from, a list, or all"},
+    {"grid", "all", "grids to choose from, a list, or all"},
+    {"M", "6,7,8", "hash sizes to choose from, like 6,7 or 5..9"},
+    {"isa", "best", "instruction sets to choose from, for vector backends; all: of this build and machine"},
+    {"block", "auto", "blocks to choose from, for backends that have some: auto, slab:4, ..."},
+    {"precision", "double", "working precisions to choose from; what each costs in accuracy: docs/accuracy.md"},
+    {"threads", "all", "numbers of threads to choose from; all: 1, 2, 4, ... and every core"},
+    {"granularity", "default", "how loops are shared out; backends of one kind, if several"},
+};
+
+struct tune_settings {
+  std::map<std::string, std::string> levels;
+  tune_request request;
+  std::string save;
+};
+
+template <class Names>
+std::string list_of(const Names& names) {
+  std::string text;
+  for (const auto& n : names) text += (text.empty() ? "" : ",") + std::string(n);
+  return text;
+}
+
+/// What "all" stands for.
+std::string every_word(const std::string& key) {
+  if (key == "grid") return list_of(grid_names());
+  if (key == "isa") return list_of(isa_names());
+  std::vector<std::string_view> usable;
+  for (const backend_entry& b : registry::instance().backends())
+    if (b.unavailable.empty()) usable.push_back(b.traits.name);
+  return list_of(usable);
+}
+
+/// Throws, before anything is measured, if a profile could not be written there.
+void check_writable(const std::string& path) {
+  std::error_code code;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (path.empty()) throw error("--save takes the name of a file, not \"\"");
+  if (std::filesystem::is_directory(path, code)) throw error("cannot write " + path + ": it is a folder");
+  if (::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
+    throw error("cannot write " + path + ": its folder is not there or not writable");
+}
+
+int start_tuning(const tune_settings& o, bool save) {
+  tune_request r = o.request;
+  for (const auto& [key, text] : o.levels) {
+    const bool all = text == "all" && (key == "backend" || key == "grid" || key == "isa");
+    read_level(r.levels, key, all ? every_word(key) : text, usable_cores(), "--" + key);
+  }
+  r.rules.seed = r.levels.seed;
+  if (save) check_writable(o.save);
+  const registry& all = registry::instance();
+  note_interrupts();
+  const tune_result result = tune(r, all);
+  fmt::print("{}", tune_text(r, result, all));
+  if (result.interrupted) {
+    fmt::print("interrupted{}\n", save ? "; no profile was written" : "");
+    return 130;
+  }
+  if (save && result.winner) {
+    write_whole_file(profile_json(r, result, all).dump(2) + "\n", o.save);
+    fmt::print("profile: {}\n", o.save);
+  }
+  return std::ranges::count(result.candidates, fate::wrong, &contestant::what) == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_tune_command(CLI::App& app, action& chosen) {
+  CLI::App* const command = app.add_subcommand(
+      "tune",
+      "Finds what is fastest for one case on this machine, within a time: backend, grid, M, block, precision and "
+      "number\nof threads. Every candidate gets a look; those that are clearly slower are dropped; the others are "
+      "measured in\ninterleaved rounds. No time counts before its rates were verified.");
+  const auto o = std::make_shared<tune_settings>();
+  for (const tune_option& option : tune_options)
+    command->add_option(std::string("--") + option.key, o->levels[option.key] = option.standard, option.what)
+        ->capture_default_str();
+  command->add_option("--budget", o->request.budget_s, "seconds for everything, particles and reference included")
+      ->capture_default_str();
+  command->add_option("--phase", o->request.phase, "what is to be fast: total (a whole step) or sum (alone)")
+      ->capture_default_str();
+  command->add_option("--binding", o->request.binding, "cores_first: pins threads, one on every core first; none")
+      ->capture_default_str();
+  const CLI::Option* const save =
+      command->add_option("--save", o->save, "writes what was found to a profile, for pairsum run --profile");
+  command->footer(
+      "Examples:\n"
+      "  pairsum tune --dx 0.012                           a minute\n"
+      "  pairsum tune --dx 0.00594 --budget 180 --save talk.profile.json\n"
+      "  pairsum run --profile talk.profile.json");
+  command->callback([&chosen, o, save] {
+    const bool given = save->count() > 0;
+    chosen = [o, given] { return start_tuning(*o, given); };
+  });
+}
+
+}  // namespace pairsum::harness

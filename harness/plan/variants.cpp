@@ -1,0 +1,90 @@
+#include "harness/plan/variants.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/isa.hpp"
+#include "core/names.hpp"
+#include "harness/environment/environment.hpp"
+#include "sum/grids.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+template <class T>
+void add_once(std::vector<T>& all, T one) {
+  if (std::ranges::find(all, one) == all.end()) all.push_back(std::move(one));
+}
+
+/// The isa that a word means for a backend, as it stands in a row.
+std::string isa_of(const std::string& word, const backend_traits& b) {
+  if (!b.vector) return compiled_isa();
+  if (word != "best") return word;
+  const auto names = isa_names();
+  return names.empty() ? word : std::string(names.front());
+}
+
+/// Can the backend sum the world at all? Asked with a tiny world, so that no wrong size speaks for it.
+bool is_built(const std::string& backend, int dim, const point& world, const registry& all) {
+  setup s;
+  s.backend = backend;
+  s.interaction = world.interaction;
+  s.smoothing = world.smoothing;
+  s.precision = world.precision;
+  s.dim = dim;
+  s.M = 2;
+  s.constants.H = 0.1;
+  s.omega_low.assign(static_cast<std::size_t>(dim), 0.0);
+  s.omega_high.assign(static_cast<std::size_t>(dim), 1.0);
+  try {
+    all.make_summation(s);
+  } catch (const error&) {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<cell_grid> grids_of(const run_request& r) {
+  std::vector<cell_grid> all;
+  for (const std::string& grid : r.grids)
+    for (const int M : r.M) add_once(all, cell_grid{grid, grid_takes_M(grid) ? M : 0});
+  return all;
+}
+
+std::vector<backend_way> ways_of(const run_request& r, const std::vector<std::string>& backends, const registry& all) {
+  std::vector<backend_way> ways;
+  for (const std::string& backend : backends) {
+    const backend_traits& traits = all.find_backend(backend).traits;
+    for (const std::string& isa : r.isas)
+      for (const std::string& block : r.blocks)
+        add_once(ways, backend_way{backend, isa_of(isa, traits), traits.blocks ? block : std::string(no_block)});
+  }
+  return ways;
+}
+
+std::vector<std::string> built_backends(const run_request& r, const point& world, const registry& all) {
+  std::vector<std::string> built;
+  for (const std::string& backend : r.backends) all.find_backend(backend);
+  for (const std::string& backend : r.backends)
+    if (is_built(backend, r.dim, world, all)) add_once(built, backend);
+  return built;
+}
+
+void check_built(const run_request& r, const registry& all) {
+  point world;
+  for (const std::string& precision : r.precisions)
+    for (const std::string& interaction : r.interactions) {
+      world.precision = precision;
+      world.interaction = interaction;
+      world.smoothing = all.is_smoothed(interaction) ? r.smoothings.front() : std::string(no_smoothing);
+      if (built_backends(r, world, all).empty())
+        throw error(fmt::format("none of the backends {} is built for {} in {}D and precision {}", join(r.backends),
+                                interaction, r.dim, precision));
+    }
+}
+
+}  // namespace pairsum::harness

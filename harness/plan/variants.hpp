@@ -1,0 +1,36 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "harness/plan/plan.hpp"
+
+namespace pairsum::harness {
+
+/// A grid with its M; 0 for a grid that takes none.
+struct cell_grid {
+  std::string name;
+  int M = 0;
+  bool operator==(const cell_grid&) const = default;
+};
+
+/// The request's grids, each with every M, those that take none once.
+std::vector<cell_grid> grids_of(const run_request& r);
+
+/// A backend with the isa and the block that it uses.
+struct backend_way {
+  std::string backend, isa, block;
+  bool operator==(const backend_way&) const = default;
+};
+
+/// Every way in which the request runs these backends: `isa` varies for vector backends alone, for the others it is
+/// what the build was compiled for; blocks vary for those that have some.
+std::vector<backend_way> ways_of(const run_request& r, const std::vector<std::string>& backends, const registry& all);
+
+/// The request's backends that were built for a world's precision, formula and dimension. Throws pairsum::error for a
+/// backend that is unknown or unavailable.
+std::vector<std::string> built_backends(const run_request& r, const point& world, const registry& all);
+
+/// Throws pairsum::error for a precision with a formula that none of the request's backends was built for.
+void check_built(const run_request& r, const registry& all);
+
+}  // namespace pairsum::harness

@@ -1,0 +1,16 @@
+#pragma once
+#include "cases/case.hpp"
+#include "harness/plan/plan.hpp"
+#include "harness/rows/row.hpp"
+#include "harness/verify/verify_all.hpp"
+#include "sum/registry.hpp"
+
+namespace pairsum::harness {
+
+/// The setup that a point's words name, in the world of a case, on this machine.
+setup setup_of_point(const point& p, const initial_condition& c, const registry& all);
+
+/// Every sum that the points of a request make, of one dx and state.
+verify_plan verify_plan_of(const run_request& r, const registry& all);
+
+}  // namespace pairsum::harness

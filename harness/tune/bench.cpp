@@ -1,0 +1,76 @@
+#include "harness/tune/bench.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/granularity.hpp"
+#include "harness/environment/machine.hpp"
+#include "harness/measure/stopwatch.hpp"
+#include "harness/measure/worker_team.hpp"
+#include "harness/run/point_setup.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+constexpr double least_timed_s = 0.02;  ///< of a measurement, so that the clock and a late thread weigh little
+constexpr int most_evaluations = 50;
+
+}  // namespace
+
+tune_bench::tune_bench(const tune_request& r, const point& any, const registry& all)
+    : request_(r), all_(all), binding_(r.binding), particles_(r.levels, any) {
+  all_.make_summation(setup_of_point(any, particles_.initial, all_))->check(particles_.initial.particles);
+}
+
+void tune_bench::complete(point& p) const {
+  p.H = particles_.initial.H;
+  p.n_fluid = particles_.initial.particles.count(particle_kind::fluid);
+  p.n_boundary = particles_.initial.particles.count(particle_kind::boundary);
+}
+
+void tune_bench::make_reference(const point& p) {
+  auto& v = verifiers_[p.precision];
+  if (v) return;
+  const worker_team workers(runtime::omp, usable_cores(), &binding_);
+  v = std::make_unique<verifier>(all_, setup_of_point(p, particles_.initial, all_), particles_.initial.particles,
+                                 workers.get());
+}
+
+std::optional<double> tune_bench::evaluate(summation& s, const point& p, const team& t, std::string& error) {
+  stopwatch clock;
+  s.index(t);
+  s.prepare(t);
+  s.zero(t);
+  const double before = clock.lap();
+  s.sum(t);
+  const double sum = clock.lap();
+  s.reduce(t);
+  const double after = clock.lap();
+  const verifier::outcome checked = verifiers_.at(p.precision)->check(s, {}, t);
+  if (!checked.ok) {
+    error = checked.error;
+    return std::nullopt;
+  }
+  return request_.phase == "sum" ? sum : before + sum + after;
+}
+
+std::optional<double> tune_bench::measure(const point& p, std::string& error) {
+  make_reference(p);
+  const auto s = all_.make_summation(setup_of_point(p, particles_.initial, all_));
+  const runtime kind = s->traits().threads;
+  const worker_team workers(kind, p.threads, &binding_);
+  const team t = workers.get().with(parse_granularity(p.granularity, kind));
+  s->load(particles_.initial.particles, particles_.orders.at(p.order), t);
+  if (!evaluate(*s, p, t, error)) return std::nullopt;
+  double all = 0;
+  int evaluations = 0;
+  while (evaluations == 0 || (all < least_timed_s && evaluations < most_evaluations)) {
+    const auto seconds = evaluate(*s, p, t, error);
+    if (!seconds) return std::nullopt;
+    all += *seconds;
+    ++evaluations;
+  }
+  return std::max(1e-9, all / evaluations);
+}
+
+}  // namespace pairsum::harness

@@ -1,0 +1,37 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "harness/measure/binding.hpp"
+#include "harness/run/world.hpp"
+#include "harness/tune/tune.hpp"
+
+namespace pairsum::harness {
+
+/// Measures candidates on the particles of one case, in this process.
+class tune_bench {
+ public:
+  tune_bench(const tune_request& r, const point& any, const registry& all);
+
+  void complete(point& p) const;
+
+  /// Seconds of one evaluation, as far as the request's phase counts; empty, with `error` set, if its rates were wrong.
+  std::optional<double> measure(const point& p, std::string& error);
+
+  /// Makes the references that the points need.
+  void make_reference(const point& p);
+
+ private:
+  /// Evaluates once; seconds, or empty with `error` set.
+  std::optional<double> evaluate(summation& s, const point& p, const team& t, std::string& error);
+
+  const tune_request& request_;
+  const registry& all_;
+  thread_binding binding_;
+  world_particles particles_;
+  std::map<std::string, std::unique_ptr<verifier>> verifiers_;  ///< by precision
+};
+
+}  // namespace pairsum::harness

@@ -1,0 +1,122 @@
+#include "harness/tune/profile_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "harness/environment/environment.hpp"
+#include "harness/environment/machine.hpp"
+#include "harness/plan/levels.hpp"
+#include "harness/rows/fields.hpp"
+#include "harness/tune/candidates.hpp"
+#include "harness/tune/winner.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+using nlohmann::json;
+
+/// The levels that make the case.
+constexpr std::string_view case_levels[] = {"case",  "dx",          "state",     "dim",     "H",
+                                            "order", "interaction", "smoothing", "outside", "seed"};
+
+json bound(const std::optional<interval>& bounds, double interval::*side) {
+  return bounds ? json((*bounds).*side) : json(nullptr);
+}
+
+json parsed(const std::string& path) {
+  std::error_code code;
+  if (std::filesystem::is_directory(path, code)) throw error("is a folder");
+  std::ifstream file(path);
+  if (!file) throw error("cannot be read");
+  try {
+    return json::parse(file);
+  } catch (const json::parse_error& e) {
+    throw error(fmt::format("is no whole JSON (byte {})", e.byte));
+  }
+}
+
+saved_profile read(const json& j) {
+  saved_profile p;
+  fields from(j);
+  from.literal("schema", profile_schema);
+  p.words = from.text("words");
+  const profile words = parse_profile(p.words);
+  fields made_for = from.nested("case");
+  for (const std::string_view level : case_levels) {
+    const std::string key(level);
+    read_level(p.levels, key, made_for.at(key.c_str()), 0, "its " + key);
+  }
+  made_for.finish();
+  fields machine = from.nested("machine");
+  p.host = machine.text("host");
+  p.cpu = machine.text("cpu");
+  p.cores = machine.integer("cores", 1);
+  machine.finish();
+  for (const char* key : {"n_fluid", "n_boundary", "rounds"}) from.count(key);
+  for (const char* key : {"time_s", "low", "high"}) from.seconds_or_null(key);
+  for (const char* key : {"phase", "git", "utc"}) from.text(key);
+  from.finish();
+  p.levels.backends = {words.words.backend};
+  p.levels.grids = {words.words.grid};
+  p.levels.M = {words.words.M};
+  p.levels.isas = {words.words.isa};
+  p.levels.blocks = {words.words.block};
+  p.levels.precisions = {words.words.precision};
+  p.levels.granularities = {words.granularity};
+  p.levels.threads = {words.threads};
+  return p;
+}
+
+}  // namespace
+
+json profile_json(const tune_request& r, const tune_result& result, const registry& all) {
+  const point& best = result.points.at(result.winner.value());
+  const tuned_time time = time_of(result);
+  const environment_row here = describe_environment("tune", "", "");
+  const json levels = levels_json(r.levels);
+  json made_for;
+  for (const std::string_view key : case_levels) made_for[std::string(key)] = levels.at(std::string(key));
+  return {{"schema", profile_schema},
+          {"words", profile_words(best, all)},
+          {"case", made_for},
+          {"n_fluid", best.n_fluid},
+          {"n_boundary", best.n_boundary},
+          {"machine", {{"host", here.host}, {"cpu", here.cpu}, {"cores", usable_cores()}}},
+          {"git", here.git},
+          {"utc", here.utc},
+          {"phase", r.phase},
+          {"time_s", time.seconds},
+          {"low", bound(time.bounds, &interval::low)},
+          {"high", bound(time.bounds, &interval::high)},
+          {"rounds", time.rounds}};
+}
+
+saved_profile read_profile(const std::string& path) {
+  try {
+    const json j = parsed(path);
+    if (!j.is_object()) throw error("should be a JSON object");
+    return read(j);
+  } catch (const error& e) {
+    throw error(fmt::format("{}: is no profile of pairsum tune: {}", path, e.what()));
+  }
+}
+
+bool profile_says(std::string_view level) {
+  constexpr std::string_view words[] = {"backend", "grid", "M", "isa", "block", "precision", "threads", "granularity"};
+  return std::ranges::find(words, level) != std::end(words) ||
+         std::ranges::find(case_levels, level) != std::end(case_levels);
+}
+
+std::string differences(const saved_profile& p) {
+  const machine here = describe_machine();
+  if (p.cpu == here.cpu && p.cores == usable_cores()) return "";
+  return fmt::format("the profile was made on {} ({}, {} cores); what is fastest here may be something else", p.host,
+                     p.cpu, p.cores);
+}
+
+}  // namespace pairsum::harness

@@ -1,0 +1,51 @@
+#pragma once
+// Symmetric passes over blocks of cells on vector units, with oneTBB:
+//
+//   for each colour:                                     2^axes passes, a barrier between them
+//     parallel_for over blocks of the colour:
+//       for cell in block, for i in cell:
+//         hits = candidates of the own and the forward cells in reach, packed
+//         for vectors of hits j:  c = f(i, j);  u_i += c.to_i;  u_j += c.to_j
+//
+// Each pair once, both sides updated, lanes full of pairs that interact. Race-free: a block touches its cells and one
+// more on either side, and blocks of a colour are at least two cells apart (sum/cell_blocks.hpp). Bit-identical for
+// every number of threads: neither blocks nor their colours depend on it.
+#include "core/tbb_loop.hpp"
+#include "sum/backend.hpp"
+#include "vector/tile_workspace.hpp"
+
+namespace pairsum {
+
+struct tiles_tbb {
+  static constexpr backend_traits traits{
+      .name = "tiles_tbb",
+      .description = "symmetric on vector units: packed pairs, coloured blocks of cells, oneTBB",
+      .aliases = "Newton-3 on vector units, blocked half stencil",
+      .threads = runtime::tbb,
+      .symmetric = true,
+      .deterministic = true,
+      .accumulates = true,
+      .evaluations_per_pair = 1,
+      .sweeps_per_colour = false,
+      .keeps_pairs = false,
+      .loop = {schedule::simple, 1},
+      .vector = true,
+      .blocks = true};
+
+  template <class I>
+  struct workspace : tile_workspace<I, true> {
+    template <class Probe>
+    void sum(const problem<I>& p, const team& t, Probe& probe) {
+      this->check_team(t);
+      const granularity g = t.granularity_or(traits.loop);
+      t.arena().arena.execute([&] {
+        for (unsigned colour = 0; colour < this->colours(); ++colour)
+          tbb_pass(colour, 0, this->blocks(colour), g, probe, [&](std::size_t k) {
+            this->sum_block(p, colour, k, ::tbb::this_task_arena::current_thread_index(), probe);
+          });
+      });
+    }
+  };
+};
+
+}  // namespace pairsum

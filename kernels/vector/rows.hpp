@@ -1,0 +1,151 @@
+#pragma once
+#include <cstdint>
+
+#include "vector/lanes.hpp"
+#include "vector/tile_problem.hpp"
+
+/// Between particles that lie anywhere, a row of values each, and vectors with one particle per lane: rows are loaded
+/// in blocks of a few values and transposed in registers, which takes a fraction of the time of gather and scatter
+/// instructions. Rows are padded to whole blocks of row_block values.
+namespace pairsum {
+
+namespace rows_detail {
+
+/// Values moved as one: four, or what a vector of this instruction set has.
+template <class R>
+inline constexpr std::size_t piece = lane_count<R> < row_block ? lane_count<R> : row_block;
+
+/// Piece k of the vector: the piece at `from` of row index[k * piece].
+template <class D, class R>
+HWY_INLINE hn::Vec<D> load(D d, const R* from, std::size_t stride, const std::uint32_t* index) {
+  constexpr std::size_t n = hn::MaxLanes(D());
+  if constexpr (n == piece<R>) {
+    return hn::LoadU(d, from + index[0] * stride);
+  } else {
+    const hn::Half<D> half;
+    return hn::Combine(d, load(half, from, stride, index + n / 2), load(half, from, stride, index));
+  }
+}
+
+/// Adds piece k of v to the piece at `to` of row index[k * piece].
+template <class D, class R>
+HWY_INLINE void add(D d, hn::Vec<D> v, R* to, std::size_t stride, const std::uint32_t* index) {
+  constexpr std::size_t n = hn::MaxLanes(D());
+  if constexpr (n == piece<R>) {
+    R* const row = to + index[0] * stride;
+    hn::StoreU(hn::Add(hn::LoadU(d, row), v), d, row);
+  } else {
+    const hn::Half<D> half;
+    add(half, hn::LowerHalf(half, v), to, stride, index);
+    add(half, hn::UpperHalf(half, v), to, stride, index + n / 2);
+  }
+}
+
+/// The sum of v's pieces.
+template <class R, class D>
+HWY_INLINE auto sum_of_pieces([[maybe_unused]] D d, hn::Vec<D> v) {
+  if constexpr (hn::MaxLanes(D()) == piece<R>) {
+    return v;
+  } else {
+    const hn::Half<D> half;
+    return sum_of_pieces<R>(half, hn::Add(hn::LowerHalf(half, v), hn::UpperHalf(half, v)));
+  }
+}
+
+/// The lower and the upper halves of the pieces (of four doubles) of a and b, in turns.
+template <class V>
+HWY_INLINE V lower_halves(V a, V b) {
+  const hn::DFromV<V> d;
+#if HWY_CAP_GE512
+  if constexpr (sizeof(V) == 64) {
+    alignas(64) static constexpr std::int64_t from[8] = {0, 1, 8, 9, 4, 5, 12, 13};
+    return V{_mm512_permutex2var_pd(a.raw, _mm512_load_si512(from), b.raw)};
+  } else
+#endif
+    return hn::ConcatLowerLower(d, b, a);
+}
+template <class V>
+HWY_INLINE V upper_halves(V a, V b) {
+  const hn::DFromV<V> d;
+#if HWY_CAP_GE512
+  if constexpr (sizeof(V) == 64) {
+    alignas(64) static constexpr std::int64_t from[8] = {2, 3, 10, 11, 6, 7, 14, 15};
+    return V{_mm512_permutex2var_pd(a.raw, _mm512_load_si512(from), b.raw)};
+  } else
+#endif
+    return hn::ConcatUpperUpper(d, b, a);
+}
+
+/// Transposes inside pieces: value b of piece k of v[r] becomes value r of piece k of v[b]. Its own inverse.
+template <class V>
+HWY_INLINE void transpose(V (&v)[2]) {
+  const hn::DFromV<V> d;
+  const V low = hn::InterleaveLower(d, v[0], v[1]), high = hn::InterleaveUpper(d, v[0], v[1]);
+  v[0] = low;
+  v[1] = high;
+}
+template <class V>
+HWY_INLINE void transpose(V (&v)[4]) {
+  const hn::DFromV<V> d;
+  const V a = hn::InterleaveLower(d, v[0], v[1]), b = hn::InterleaveLower(d, v[2], v[3]);
+  const V e = hn::InterleaveUpper(d, v[0], v[1]), f = hn::InterleaveUpper(d, v[2], v[3]);
+  if constexpr (sizeof(hn::TFromV<V>) == 4) {
+    const hn::RepartitionToWide<decltype(d)> w;
+    const auto wa = hn::BitCast(w, a), wb = hn::BitCast(w, b), we = hn::BitCast(w, e), wf = hn::BitCast(w, f);
+    v[0] = hn::BitCast(d, hn::InterleaveLower(w, wa, wb));
+    v[1] = hn::BitCast(d, hn::InterleaveUpper(w, wa, wb));
+    v[2] = hn::BitCast(d, hn::InterleaveLower(w, we, wf));
+    v[3] = hn::BitCast(d, hn::InterleaveUpper(w, we, wf));
+  } else {
+    v[0] = lower_halves(a, b);
+    v[1] = lower_halves(e, f);
+    v[2] = upper_halves(a, b);
+    v[3] = upper_halves(e, f);
+  }
+}
+
+}  // namespace rows_detail
+
+/// values[k] becomes the vector of value k of the rows index[0 .. lanes). `stride`: distance of rows, at least
+/// padded(n).
+template <std::size_t n, class R>
+HWY_INLINE void load_rows(const R* rows, std::size_t stride, const std::uint32_t* index, lane_vector<R> (&values)[n]) {
+  constexpr std::size_t P = rows_detail::piece<R>;
+  for (std::size_t first = 0; first < n; first += P) {
+    lane_vector<R> v[P];
+    for (std::size_t r = 0; r < P; ++r) v[r] = rows_detail::load(lane_tag<R>(), rows + first, stride, index + r);
+    rows_detail::transpose(v);
+    for (std::size_t b = 0; b < P && first + b < n; ++b) values[first + b] = v[b];
+  }
+}
+
+/// Adds lane l of values[k] to value k of row index[l], one row after the other, so that a row may be there twice.
+template <std::size_t n, class R>
+HWY_INLINE void add_to_rows(R* rows, std::size_t stride, const std::uint32_t* index,
+                            const lane_vector<R> (&values)[n]) {
+  constexpr std::size_t P = rows_detail::piece<R>;
+  const lane_tag<R> d;
+  for (std::size_t first = 0; first < n; first += P) {
+    lane_vector<R> v[P];
+    for (std::size_t b = 0; b < P; ++b) v[b] = first + b < n ? values[first + b] : hn::Zero(d);
+    rows_detail::transpose(v);
+    for (std::size_t r = 0; r < P; ++r) rows_detail::add(d, v[r], rows + first, stride, index + r);
+  }
+}
+
+/// Adds the sum over the lanes of values[k] to value k of a row.
+template <std::size_t n, class R>
+HWY_INLINE void add_sums_to_row(R* row, const lane_vector<R> (&values)[n]) {
+  constexpr std::size_t P = rows_detail::piece<R>;
+  const lane_tag<R> d;
+  const hn::CappedTag<R, P> one;
+  for (std::size_t first = 0; first < n; first += P) {
+    lane_vector<R> v[P];
+    for (std::size_t b = 0; b < P; ++b) v[b] = first + b < n ? values[first + b] : hn::Zero(d);
+    rows_detail::transpose(v);
+    for (std::size_t b = 1; b < P; ++b) v[0] = hn::Add(v[0], v[b]);
+    hn::StoreU(hn::Add(hn::LoadU(one, row + first), rows_detail::sum_of_pieces<R>(d, v[0])), one, row + first);
+  }
+}
+
+}  // namespace pairsum

@@ -1,0 +1,154 @@
+#pragma once
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "core/isa.hpp"
+#include "core/names.hpp"
+#include "core/team.hpp"
+#include "sum/cell_blocks.hpp"
+#include "sum/gather_cell.hpp"
+#include "sum/half_stencil.hpp"
+#include "sum/setup.hpp"
+#include "vector/tile_problem.hpp"
+
+namespace pairsum {
+
+/// What tile backends keep from step to step: the fluid as rows, the blocks, and the kernel of the instruction set.
+/// Pairs that lanes do not carry (of whole numbers, or where nothing is compiled for vector units) are summed one at a
+/// time, in the same order of cells.
+template <class I, bool symmetric>
+class tile_workspace {
+  using real = typename I::real;
+  using tiles = tile_problem<I>;
+  static constexpr std::size_t spare_rows = 16;             ///< per thread: as many as the widest vector has lanes
+  static constexpr std::size_t most_in_float = 0x7fffffff;  ///< numbers of boundary particles are lanes as wide as real
+
+ public:
+  /// Does this workspace derive what fluid particles bring to a pair?
+  bool derives_fluid() const { return kernel_ != nullptr; }
+
+  /// Throws pairsum::error for an isa or a block that is not to be had.
+  void configure(const setup& s) {
+    check_block(s.block);
+    blocks_.shape(s.block == "auto" ? block_shape::fitting(s.dim, s.cache_bytes, bytes_per_cell(s.dim))
+                                    : block_shape::parse(s.block),
+                  !symmetric);
+    check_isa(s.isa);
+    if constexpr (takes_lanes<I>) {
+      const auto kernels = vector_kernels<I>();
+      for (const tile_kernels<I>& k : kernels)
+        if (!kernel_ && (s.isa == best_isa || k.isa == s.isa)) {
+          kernel_ = symmetric ? k.symmetric : k.gather;
+          rounds_alike_ = I::dim == 1 || k.fuses == scalar_fuses;
+        }
+      if (!kernel_ && !kernels.empty())
+        throw error("interaction " + std::string(I::name) + " was not compiled for isa " + s.isa +
+                    "; one of one's own is compiled for one set, by the flags of its source: take isa best");
+    }
+  }
+
+  template <class Probe>
+  void prepare(const problem<I>& p, const team& t, Probe&) {
+    if (kernel_ && sizeof(real) == 4 && p.count > most_in_float)
+      throw error("vector backends take at most 2^31 - 1 particles in float, got " + std::to_string(p.count));
+    threads_ = t.threads();
+    blocks_.build(p.cells());
+    if (kernel_) {
+      const std::size_t spare = spare_rows * static_cast<std::size_t>(t.threads());
+      rows_.resize((p.fluid_count + spare) * tiles::stride);
+      t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) fill(p, i);
+      });
+      std::fill(rows_.end() - static_cast<std::ptrdiff_t>(spare * tiles::stride), rows_.end(),
+                std::numeric_limits<real>::quiet_NaN());
+    }
+  }
+
+  /// The rates of rows to 0; gathers add to the columns.
+  void zero(const problem<I>& p, const team& t) {
+    t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (symmetric && kernel_)
+          std::fill_n(rows_.data() + i * tiles::stride + tiles::rates_at, tiles::rates, real(0));
+        else
+          p.u.store(i, pairsum::zero<rates_of<I>>());
+      }
+    });
+  }
+
+  /// Every thread needs spare rows. Throws pairsum::error for a team larger than that of prepare().
+  void check_team(const team& t) const {
+    if (t.threads() > threads_)
+      throw error("prepared for " + std::to_string(threads_) + " threads, but to be summed on " +
+                  std::to_string(t.threads()));
+  }
+
+  /// Sums the cells of a block on thread `thread` of the team.
+  template <class Probe>
+  void sum_block(const problem<I>& p, unsigned colour, std::size_t block, int thread, Probe& probe) {
+    const auto cell = blocks_(colour, block);
+    if (kernel_) {
+      const tiles view{&p, rows_.data(), rounds_alike_ ? nullptr : &in_reach};
+      kernel_(view, cell.data(), cell.size(),
+              static_cast<std::uint32_t>(p.fluid_count + spare_rows * static_cast<std::size_t>(thread)));
+    } else {
+      for (const std::uint32_t c : cell) sum_scalar(p, c, probe);
+    }
+  }
+
+  /// Brings the rates of rows to the columns.
+  void reduce(const problem<I>& p, const team& t) {
+    if (symmetric && kernel_)
+      t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i)
+          for (std::size_t s = 0; s < tiles::rates; ++s)
+            p.u.template column_as<real>(static_cast<int>(s))[i] = rows_[i * tiles::stride + tiles::rates_at + s];
+      });
+  }
+
+  unsigned colours() const { return blocks_.colours(); }
+  std::size_t blocks(unsigned colour) const { return blocks_.size(colour); }
+
+ private:
+#ifdef __FP_FAST_FMA
+  static constexpr bool scalar_fuses = true;
+#else
+  static constexpr bool scalar_fuses = false;
+#endif
+  static bool in_reach(const problem<I>& p, std::uint32_t i, std::uint32_t j, real reach2) {
+    return norm2<I::dim, real>(p.position(i) - p.position(j)) < reach2;
+  }
+
+  /// Bytes of a cell's particles, at the talk's spacing of H/2.
+  static std::size_t bytes_per_cell(int dim) {
+    return (std::size_t{1} << dim) * (tiles::stride + I::dim) * sizeof(real);
+  }
+
+  void fill(const problem<I>& p, std::size_t i) {
+    const auto& set = *p.particles;
+    const particle_state<I::dim, real> state{set.position(i), set.velocity(i), set.rho[i], set.m[i], set.id[i]};
+    real* const row = rows_.data() + i * tiles::stride;
+    for (int d = 0; d < I::dim; ++d) row[d] = state.x[d];
+    each_scalar(p.formula->derive(state), [&](const real& a, int k) { row[I::dim + k] = a; });
+  }
+
+  template <class Probe>
+  void sum_scalar(const problem<I>& p, std::size_t cell, Probe& probe) {
+    if constexpr (symmetric) {
+      sweep_cell<I::dim>(p.cells(), cell, probe, [&](std::uint32_t i, const auto& fluid, const auto& boundary) {
+        scatter_one(p, i, fluid, boundary, probe);
+      });
+    } else {
+      gather_cell(p, cell, probe);
+    }
+  }
+
+  column<real> rows_;
+  cell_blocks<I::dim> blocks_;
+  tile_function<I> kernel_ = nullptr;
+  bool rounds_alike_ = true;
+  int threads_ = 0;
+};
+
+}  // namespace pairsum

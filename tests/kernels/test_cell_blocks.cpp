@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "indexed_scene.hpp"
+#include "sum/cell_blocks.hpp"
+
+// Blocks of cells: each cell once, and blocks of a colour write different particles, whatever the schedule.
+namespace pairsum {
+namespace {
+
+using namespace test_kit;
+
+struct shaped_grid {
+  grid_choice grid;
+  block_shape shape;
+};
+std::ostream& operator<<(std::ostream& o, const shaped_grid& s) {
+  return o << s.grid << " axes " << s.shape.axes << " width " << s.shape.width;
+}
+
+std::vector<shaped_grid> every_shape() {
+  std::vector<shaped_grid> all;
+  for (const grid_choice& grid : every_grid({2, 3, 6}))
+    for (const int axes : {1, 2, 3})
+      for (const int width : {2, 3, 4})
+        if (grid.M == 0 || (1 << grid.M) % (2 * width) == 0) all.push_back({grid, {axes, width}});
+  return all;
+}
+
+class cell_blocks_test : public testing::TestWithParam<shaped_grid> {
+ protected:
+  indexed_scene s{make_scene("dam_break", 0.03, "perturbed"), GetParam().grid};
+  const cells<3>& c = s.index.view();
+  cell_blocks<3> blocks;
+  void SetUp() override {
+    blocks.shape(GetParam().shape);
+    blocks.build(c);
+  }
+
+  /// The cells a block may write: its own and their forward neighbours.
+  std::set<std::uint32_t> touched(unsigned colour, std::size_t block) const {
+    std::set<std::uint32_t> all;
+    for (const std::uint32_t cell : blocks(colour, block)) {
+      all.insert(cell);
+      for (unsigned n = pattern::stencil_centre<3> + 1; n < cells<3>::stencil; ++n) all.insert(c.neighbour(cell, n));
+    }
+    all.erase(0);
+    return all;
+  }
+  /// Cells that two blocks of these colours may write.
+  std::size_t conflicts(const std::vector<unsigned>& colours) const {
+    std::vector<int> writers(c.range.size(), 0);
+    for (const unsigned colour : colours)
+      for (std::size_t b = 0; b < blocks.size(colour); ++b)
+        for (const std::uint32_t cell : touched(colour, b)) ++writers[cell];
+    return static_cast<std::size_t>(std::ranges::count_if(writers, [](int n) { return n > 1; }));
+  }
+};
+INSTANTIATE_TEST_SUITE_P(shape, cell_blocks_test, testing::ValuesIn(every_shape()));
+
+TEST_P(cell_blocks_test, every_cell_with_fluid_is_in_one_block) {
+  std::vector<int> times(c.fluid_cells + 1, 0);
+  ASSERT_EQ(blocks.colours(), 1u << GetParam().shape.axes);
+  for (unsigned colour = 0; colour < blocks.colours(); ++colour)
+    for (std::size_t b = 0; b < blocks.size(colour); ++b) {
+      EXPECT_FALSE(blocks(colour, b).empty());
+      for (const std::uint32_t cell : blocks(colour, b)) ++times.at(cell);
+    }
+  EXPECT_EQ(times[0], 0);
+  EXPECT_EQ(std::ranges::count(times, 1), static_cast<std::ptrdiff_t>(c.fluid_cells));
+}
+
+TEST_P(cell_blocks_test, blocks_of_a_colour_write_different_cells) {
+  for (unsigned colour = 0; colour < blocks.colours(); ++colour) EXPECT_EQ(conflicts({colour}), 0u) << colour;
+}
+
+TEST_P(cell_blocks_test, merged_colours_are_detected) {
+  for (unsigned colour = 1; colour < blocks.colours(); ++colour)
+    if (blocks.size(colour) > 0) EXPECT_GT(conflicts({0, colour}), 0u) << colour;
+}
+
+TEST(cell_blocks, one_pass_has_them_all) {
+  const indexed_scene s(make_scene("dam_break", 0.05, "rest"), 3);
+  cell_blocks<3> blocks;
+  blocks.shape({3, 3}, true);
+  blocks.build(s.index.view());
+  ASSERT_EQ(blocks.colours(), 1u);
+  std::set<std::uint32_t> seen;
+  for (std::size_t b = 0; b < blocks.size(0); ++b) seen.insert(blocks(0, b).begin(), blocks(0, b).end());
+  EXPECT_EQ(seen.size(), s.index.view().fluid_cells);
+}
+
+TEST(cell_blocks, what_does_not_go_round_a_torus_is_refused_or_narrowed) {
+  const indexed_scene s(make_scene("dam_break", 0.08, "rest"), 3);
+  cell_blocks<3> blocks;
+  blocks.shape({1, 3});
+  EXPECT_EQ(
+      error_of([&] { blocks.build(s.index.view()); }),
+      "blocks of 3 cells do not go round a torus of 8 cells in two colours: take a power of two up to 4, or a grid "
+      "that takes no M");
+  blocks.shape({1, 16, true});
+  EXPECT_EQ(error_of([&] { blocks.build(s.index.view()); }), "");
+}
+
+TEST(block_shape, is_read) {
+  EXPECT_EQ(block_shape::parse("slab:2"), (block_shape{1, 2}));
+  EXPECT_EQ(block_shape::parse("pencil:16"), (block_shape{2, 16}));
+  EXPECT_EQ(block_shape::parse("brick:4096"), (block_shape{3, 4096}));
+  for (const char* wrong : {"", "slab", "slab:", "slab:1", "slab:4097", "slab:2x", "tile:2", "brick:-2", "brick: 2"})
+    EXPECT_TRUE(says(error_of([&] { block_shape::parse(wrong); }), {"block must be auto, slab:N", wrong})) << wrong;
+  EXPECT_EQ(error_of([] { check_block("auto"); }), "");
+}
+
+TEST(block_shape, fits_the_cache) {
+  EXPECT_EQ(block_shape::fitting(3, 2 << 20, 1216).width, 4);
+  EXPECT_EQ(block_shape::fitting(3, 8 << 20, 1216).width, 8);
+  EXPECT_EQ(block_shape::fitting(3, 1, 1216).width, 2);
+  EXPECT_EQ(block_shape::fitting(2, 2 << 20, 600).width, 16);
+}
+
+}  // namespace
+}  // namespace pairsum
