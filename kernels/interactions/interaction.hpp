@@ -43,6 +43,17 @@ struct nothing {
   static constexpr auto fields() { return std::tuple<>{}; }
 };
 
+/// Both contributions of a fluid pair at a distance that is known. (A formula without pair_at takes no root, or its
+/// own.)
+template <class I, int D, class T, class P>
+contributions<typename I::template rates<T>> pair_at(const I& formula, const T& distance, const vec<D, T>& r,
+                                                     const T& r2, const P& i, const P& j) {
+  if constexpr (requires { formula.pair_at(distance, r, r2, i, j); })
+    return formula.pair_at(distance, r, r2, i, j);
+  else
+    return formula.pair(r, r2, i, j);
+}
+
 /// Does I say what a boundary particle does to a fluid particle?
 template <class I>
 concept has_boundary = requires {
@@ -65,6 +76,10 @@ concept has_boundary = requires {
 ///   boundary(r, r2, i, b)  what boundary particle b adds to fluid particle i, for r2 < (boundary_reach H)^2
 ///   boundary_reach         in (0, 1]
 ///   boundary_is_singular   true if there is no finite force at r = 0: such particles are refused
+///
+/// and, for formulas that take a root (vector backends then take it ahead of the rest, which waits for it),
+///
+///   pair_at(distance, r, r2, i, j)   pair() for distance = |r|
 ///
 /// and, to be held to it by a test,
 ///

@@ -59,7 +59,12 @@ class monaghan94 {
 
   template <class T>
   contributions<rates<T>> pair(const vec<D, T>& r, const T& r2, const particle<T>& i, const particle<T>& j) const {
-    const T F = W_.slope_over_r(square_root(r2));
+    return pair_at(square_root(r2), r, r2, i, j);
+  }
+  template <class T>
+  contributions<rates<T>> pair_at(const T& distance, const vec<D, T>& r, const T& r2, const particle<T>& i,
+                                  const particle<T>& j) const {
+    const T F = W_.slope_over_r(distance);
     const vec<D, T> v = i.v - j.v;
     const T v_r = v.dot(r);
     // With the speed of approach max(-v.r, 0) in place of a branch, Pi vanishes for particles that part.

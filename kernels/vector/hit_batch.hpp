@@ -47,8 +47,15 @@ HWY_NOINLINE Mask decide_near_ties(const tile_problem<I>& t, Mask in, V r2, type
   return hn::Gt(hn::Load(d, is_in), hn::Zero(d));
 }
 
-/// The hits of a few particles i, each list filled up to whole vectors with spare rows, and their sums, lane by lane.
-/// Vectors of different i follow each other without a branch that depends on how many hits an i has.
+/// The hits of a few particles i, each list filled up to whole vectors with spare rows, and their sums. Vectors of
+/// different i follow each other without a branch that depends on how many hits an i has. A few of them at a time go
+/// through three short loops,
+///
+///   load, transpose, r, r2, |r|      in_[vector]
+///   formula; u_i += to_i             out_[vector], sums_[i]
+///   u_j += to_j
+///
+/// because a core waits for so many instructions at most: in one loop, those behind the root would fill it.
 template <class I, class V>
 class alignas(4096) hit_batch {
   using real = typename I::real;
@@ -68,59 +75,98 @@ class alignas(4096) hit_batch {
 
   /// Makes [free(), end) the hits of particle i.
   HWY_INLINE void add(std::uint32_t i, std::uint32_t* end) {
-    const index_tag di;
-    for (std::size_t k = 0; k < N; k += hn::MaxLanes(di))
-      hn::StoreU(hn::Iota(di, static_cast<std::uint32_t>(spare_ + k)), di, end + k);
+    const index_tag d;
+    constexpr std::size_t L = hn::MaxLanes(d);
+    for (std::size_t k = 0; k < N; k += L) hn::StoreU(hn::Iota(d, static_cast<std::uint32_t>(spare_ + k)), d, end + k);
     const std::size_t vectors = (static_cast<std::size_t>(end - free()) + N - 1) / N;
-    end_[n_] = vectors_ + vectors;
+    for (std::size_t k = 0; k < vectors; k += L) {
+      hn::StoreU(hn::Set(d, static_cast<std::uint32_t>(n_)), d, of_ + vectors_ + k);
+      hn::StoreU(hn::Set(d, ~0u), d, goes_on_ + vectors_ + k);
+    }
+    goes_on_[vectors_] = 0;
     vectors_ += vectors;
-    particles_[n_++] = i;
+    particles_[n_] = i;
+    n_ += vectors > 0;
   }
 
   /// Sums all pairs; then the batch is empty.
   template <bool symmetric>
   HWY_INLINE void flush() {
-    std::size_t v = 0;
+    const lane_tag<real> d;
+    V u[S];
+    for (std::size_t s = 0; s < S; ++s) u[s] = hn::Zero(d);
+    for (std::size_t first = 0; first < vectors_; first += chunk) {
+      const std::size_t n = std::min(chunk, vectors_ - first);
+      for (std::size_t k = 0; k < n; ++k) load(first + k, in_[k]);
+      for (std::size_t k = 0; k < n; ++k) sum_vector<symmetric>(first + k, in_[k], u, out_[k]);
+      if constexpr (symmetric)
+        for (std::size_t k = 0; k < n; ++k) {
+          V to_j[S];
+          for (std::size_t s = 0; s < S; ++s) to_j[s] = hn::Load(d, out_[k][s]);
+          add_to_rows(t_.rows + tiles::rates_at, tiles::stride, hits_ + (first + k) * N, to_j);
+        }
+    }
     for (std::size_t k = 0; k < n_; ++k) {
-      V u[S];
-      for (std::size_t s = 0; s < S; ++s) u[s] = hn::Zero(lane_tag<real>());
-      const real* const row = t_.rows + particles_[k] * tiles::stride;
-      for (const std::size_t end = end_[k]; v < end; ++v) sum_vector<symmetric>(v, particles_[k], row, u);
+      for (std::size_t s = 0; s < S; ++s) u[s] = hn::Load(d, sums_[k][s]);
       add_sums<symmetric>(t_, particles_[k], u);
     }
     vectors_ = n_ = 0;
   }
 
  private:
-  static constexpr std::size_t capacity = 2048, most = 32, padding = 16;
+  static constexpr std::size_t capacity = 2048, most = 32, padding = 16, chunk = 8;
+  /// A vector of pairs, a lane each: r, what j brings, then r2 and |r|.
+  using pair_lanes = real[K + 2][N];
+  using rate_lanes = real[S][N];
 
-  template <bool symmetric>
-  HWY_INLINE void sum_vector(std::size_t vector, std::uint32_t i, const real* row, V (&u)[S]) {
-    const problem<I>& p = *t_.p;
+  const real* row_of(std::size_t vector) const { return t_.rows + particles_[of_[vector]] * tiles::stride; }
+
+  HWY_INLINE void load(std::size_t vector, pair_lanes& in) const {
     const lane_tag<real> d;
-    const std::uint32_t* const hits = hits_ + vector * N;
+    const real* const row = row_of(vector);
     V value[K];
-    load_rows(t_.rows, tiles::stride, hits, value);
+    load_rows(t_.rows, tiles::stride, hits_ + vector * N, value);
     vec<D, T> r;
     for (int c = 0; c < D; ++c) r[c] = T(hn::Set(d, row[c])) - T(value[c]);
-    particle other;
-    each_scalar(other, [&](T& v, int k) HWY_ATTR { v = T(value[D + k]); });
     const T r2 = norm2<D, T>(r);
+    for (int c = 0; c < D; ++c) hn::Store(r[c].v, d, in[c]);
+    for (std::size_t k = D; k < K; ++k) hn::Store(value[k], d, in[k]);
+    hn::Store(r2.v, d, in[K]);
+    hn::Store(square_root(r2).v, d, in[K + 1]);
+  }
+
+  /// u: sums of the vector's particle i if the vector before was of the same, else of that one.
+  template <bool symmetric>
+  HWY_INLINE void sum_vector(std::size_t vector, const pair_lanes& from, V (&u)[S], rate_lanes& to_j) {
+    const problem<I>& p = *t_.p;
+    const lane_tag<real> d;
+    vec<D, T> r;
+    for (int c = 0; c < D; ++c) r[c] = hn::Load(d, from[c]);
+    particle other;
+    each_scalar(other, [&](T& v, int k) HWY_ATTR { v = hn::Load(d, from[D + k]); });
+    const T r2 = hn::Load(d, from[K]), distance = hn::Load(d, from[K + 1]);
     auto in = hn::Lt(r2.v, hn::Set(d, p.reach2));
-    if (t_.in_reach != nullptr) in = decide_near_ties(t_, in, r2.v, p.reach2, i, hits);
-    const auto both = p.formula->pair(r, r2, particle_at<I, T>(row), other);
-    each_scalar(both.to_i, [&](const T& v, int s) HWY_ATTR { u[s] = hn::Add(u[s], hn::IfThenElseZero(in, v.v)); });
-    if constexpr (symmetric) {
-      V to_j[S];
-      each_scalar(both.to_j, [&](const T& v, int s) HWY_ATTR { to_j[s] = hn::IfThenElseZero(in, v.v); });
-      add_to_rows(t_.rows + tiles::rates_at, tiles::stride, hits, to_j);
-    }
+    if (t_.in_reach != nullptr)
+      in = decide_near_ties(t_, in, r2.v, p.reach2, particles_[of_[vector]], hits_ + vector * N);
+    const auto both = pair_at<I, D, T>(*p.formula, distance, r, r2, particle_at<I, T>(row_of(vector)), other);
+    const auto same = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(goes_on_ + vector));
+    real(&sums)[S][N] = sums_[of_[vector]];
+    each_scalar(both.to_i, [&](const T& v, int s) HWY_ATTR {
+      const V one = hn::IfThenElseZero(in, v.v);
+      u[s] = hn::IfThenElse(same, hn::Add(u[s], one), one);
+      hn::Store(u[s], d, sums[s]);
+    });
+    if constexpr (symmetric)
+      each_scalar(both.to_j, [&](const T& v, int s) HWY_ATTR { hn::Store(hn::IfThenElseZero(in, v.v), d, to_j[s]); });
   }
 
   char apart_[2880];  // see nearby
   HWY_ALIGN std::uint32_t hits_[capacity];
-  std::size_t end_[most];
-  std::uint32_t particles_[most];
+  HWY_ALIGN pair_lanes in_[chunk];
+  HWY_ALIGN rate_lanes out_[chunk], sums_[most];
+  std::uint32_t of_[capacity / N + padding];       ///< by vector: whose, of particles_
+  std::uint32_t goes_on_[capacity / N + padding];  ///< by vector: all bits set if the one before is of the same
+  std::uint32_t particles_[most + 1];
   const tiles& t_;
   std::uint32_t spare_;
   std::size_t vectors_ = 0, n_ = 0;

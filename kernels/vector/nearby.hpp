@@ -1,66 +1,60 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "sum/candidates.hpp"
 #include "vector/lanes.hpp"
+#include "vector/tile_problem.hpp"
 
 namespace pairsum {
 
-/// Candidates around one place, copied together: positions relative to it, in float whatever the working precision, so
-/// that a distance test takes twice the lanes of double. It tests |x_j|^2 - 2 x_i.x_j < reach^2 - |x_i|^2, one fused
-/// multiply-add per component, and lets a little more pass than is in reach: whoever uses the hits decides in the
-/// working precision.
+/// Candidates around one particle, copied together: their places relative to it, in float whatever the working
+/// precision, so that a distance test takes twice the lanes of double. It tests |x_j|^2 - 2 x_i.x_j < reach^2 -
+/// |x_i|^2, one fused multiply-add per component, and lets a little more pass than is in reach: whoever uses the hits
+/// decides in the working precision.
 template <int D, class V>
 class alignas(4096) nearby {
   using tag = lane_tag<float>;
   static constexpr std::size_t N = lane_count<float>;
+  static_assert(2 * N <= place_room);
 
  public:
+  using places = std::array<const std::int32_t*, static_cast<std::size_t>(D)>;
   static constexpr std::size_t capacity = 1104;
 
-  /// Starts over, around `origin`, for a squared reach. Lengths are in units of the reach from here on, so that float
-  /// holds them whatever the reach is.
-  template <class R>
-  void clear(const vec<D, R>& origin, R reach2) {
-    for (int c = 0; c < D; ++c) origin_[c] = origin[c];
-    inverse_ = 1 / std::sqrt(static_cast<double>(reach2));
+  /// Starts over, around particle i, for a reach in units of the problem's, at most 1.
+  void clear(const places& place, std::uint32_t i, float reach) {
+    for (int c = 0; c < D; ++c) origin_[c] = place[c][i];
+    limit_ = (reach * reach + excess) * unit * unit;
     n_ = 0;
   }
   std::size_t size() const { return n_; }
   bool full() const { return n_ == capacity; }
 
-  /// Is x near enough to the origin to be tested against the candidates? (Cells that fold together have particles
-  /// that lie far apart.) If so, `place` is where.
-  template <class R>
-  bool has_near(const vec<D, R>& x, float (&place)[D]) const {
+  /// Is particle i near enough to the origin to be tested against the candidates? (Cells that fold together have
+  /// particles that lie far apart.) If so, `at` is where.
+  bool has_near(const places& place, std::uint32_t i, float (&at)[D]) const {
     bool in = true;
     for (int c = 0; c < D; ++c) {
-      place[c] = static_cast<float>((x[c] - static_cast<R>(origin_[c])) * static_cast<R>(inverse_));
-      in = in && std::abs(place[c]) < near;
+      const std::uint32_t from_origin =
+          static_cast<std::uint32_t>(place[c][i]) - static_cast<std::uint32_t>(origin_[c]);
+      at[c] = static_cast<float>(static_cast<std::int32_t>(from_origin));
+      in = in && std::abs(at[c]) < near * unit;
     }
     return in;
   }
 
-  /// Takes candidates from `range` until full; what is left stays in the range. `total`: length of the columns.
-  template <class R>
-  HWY_INLINE void take(const positions<D, R>& x, std::size_t total, index_range& range) {
-    const tag d;
-    const lane_tag<std::uint32_t> di;
+  /// Takes candidates from `range` until full; what is left stays in the range.
+  HWY_INLINE void take(const places& place, index_range& range) {
     const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(range.end, range.begin + (capacity - n_)));
-    auto index = hn::Iota(di, range.begin);
-    std::size_t slot = n_;
-    for (std::size_t j = range.begin; j < end; j += N, slot += N, index = hn::Add(index, hn::Set(di, N))) {
-      auto square = hn::Zero(d);
-      for (int c = 0; c < D; ++c) {
-        const auto v = relative(x.column[c], j, total, static_cast<R>(origin_[c]), static_cast<R>(inverse_));
-        hn::StoreU(v, d, x_[c] + slot);
-        square = hn::MulAdd(v, v, square);
-      }
-      hn::StoreU(square, d, square_ + slot);
-      hn::StoreU(index, di, index_ + slot);
-    }
+    std::size_t j = range.begin, slot = n_;
+    // Cells in a row hold some two vectors of candidates: these are copied without asking how many there are.
+    copy(place, j, slot);
+    copy(place, j + N, slot + N);
+    for (j += 2 * N, slot += 2 * N; j < end; j += N, slot += N) copy(place, j, slot);
     n_ += end - range.begin;
     range.begin = end;
   }
@@ -82,7 +76,7 @@ class alignas(4096) nearby {
     const lane_tag<std::uint32_t> di;
     float own = 0;
     for (int c = 0; c < D; ++c) own += place[c] * place[c];
-    const auto limit = hn::Set(d, widened - own);
+    const auto limit = hn::Set(d, limit_ - own);
     for (std::size_t k = first; k < last; k += N) {
       auto sum = hn::LoadU(d, square_ + k);
       for (int c = 0; c < D; ++c) sum = hn::NegMulAdd(hn::Set(d, 2 * place[c]), hn::LoadU(d, x_[c] + k), sum);
@@ -97,40 +91,38 @@ class alignas(4096) nearby {
   }
 
  private:
-  /// How far from the origin a particle may be, per component, and the limit of the test. With u = 2^-24: |x_i|^2 <=
-  /// 48, |x_j|^2 <= 63, the sum rounds up to seven times at most 111 u without fused operations, and the rounding of
-  /// x_i and x_j themselves adds 40 u: less than 5e-5 in all.
-  static constexpr float near = 4, widened = 1 + 5e-5f;
+  /// One vector of candidates, those beyond the range among them: they are overwritten by the next, or never tested.
+  HWY_INLINE void copy(const places& place, std::size_t j, std::size_t slot) {
+    const tag d;
+    const lane_tag<std::int32_t> di;
+    const lane_tag<std::uint32_t> du;
+    auto square = hn::Zero(d);
+    for (int c = 0; c < D; ++c) {
+      const auto x = hn::ConvertTo(d, hn::Sub(hn::LoadU(di, place[c] + j), hn::Set(di, origin_[c])));
+      hn::StoreU(x, d, x_[c] + slot);
+      square = hn::MulAdd(x, x, square);
+    }
+    hn::StoreU(square, d, square_ + slot);
+    hn::StoreU(hn::Iota(du, static_cast<std::uint32_t>(j)), du, index_ + slot);
+  }
 
-  /// (x[j ..) - origin) * scale; beyond `total` anything.
-  static HWY_INLINE hn::Vec<tag> relative(const float* x, std::size_t j, std::size_t total, float origin, float scale) {
-    return hn::Mul(hn::Sub(values(tag(), x, j, total), hn::Set(tag(), origin)), hn::Set(tag(), scale));
-  }
-  static HWY_INLINE hn::Vec<tag> relative(const double* x, std::size_t j, std::size_t total, double origin,
-                                          double scale) {
-    const lane_tag<double> d;
-    const hn::Rebind<float, lane_tag<double>> half;
-    const auto o = hn::Set(d, origin), s = hn::Set(d, scale);
-    return hn::Combine(tag(), hn::DemoteTo(half, hn::Mul(hn::Sub(values(d, x, j + N / 2, total), o), s)),
-                       hn::DemoteTo(half, hn::Mul(hn::Sub(values(d, x, j, total), o), s)));
-  }
-  template <class T, class R>
-  static HWY_INLINE hn::Vec<T> values(T d, const R* x, std::size_t j, std::size_t total) {
-    constexpr std::size_t n = hn::MaxLanes(T());
-    if (j + n <= total) return hn::LoadU(d, x + j);
-    HWY_ALIGN R last[n] = {};  // a masked load may read behind the end
-    for (std::size_t l = 0; j + l < total; ++l) last[l] = x[j + l];
-    return hn::Load(d, last);
-  }
+  /// How far from the origin a particle may be, per component, in units of the reach. Then those in its reach are less
+  /// than 5 away, less than 2^23 places, which float holds exactly.
+  static constexpr float near = 4, unit = places_per_reach;
+  /// What the limit is wider than the reach's square, in its units. With u = 2^-24: |x_i|^2 <= 48, |x_j|^2 <= 63, and
+  /// the sum rounds up to seven times at most 111 u without fused operations; rounding to places moves a component of
+  /// x_i - x_j by up to 2^-20 (a little more if the world is 10^9 reaches wide), the square of its length by 4e-6.
+  static constexpr float excess = 5e-5f;
 
   // The columns of a cell with its neighbours (some 100 candidates) lie at different places of a page: a load whose
   // address differs from a recent store's by a multiple of 4096 waits for it.
   static constexpr std::size_t room = 1168;
-  static_assert(room >= capacity + 2 * N);
+  static_assert(room >= capacity + 3 * N);
   HWY_ALIGN float x_[D][room];
   HWY_ALIGN float square_[room];
   HWY_ALIGN std::uint32_t index_[room];
-  double origin_[D], inverse_;
+  std::int32_t origin_[D];
+  float limit_ = 0;
   std::size_t n_ = 0;
 };
 

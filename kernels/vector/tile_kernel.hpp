@@ -51,7 +51,7 @@ class tile_kernel {
     }
     // Candidate number s of the sequence is particle own.fluid_begin + s of the cell, as long as it is one of them.
     each_near(
-        p, own, fluid, p.reach2, near, [&] { return b.particles_for(near.size()); },
+        t, own, fluid, 1, near, [&] { return b.particles_for(near.size()); },
         [&](std::uint32_t i, const float(&place)[D], std::size_t first) HWY_ATTR {
           const std::size_t slot = i - own.fluid_begin;
           std::uint32_t* end = b.free();
@@ -68,10 +68,9 @@ class tile_kernel {
   template <bool symmetric>
   static HWY_NOINLINE void sum_boundary(const tiles& t, const cell_range& own, const range_array& boundary,
                                         near_list& near) {
-    const problem<I>& p = *t.p;
     HWY_ALIGN std::uint32_t hits[near_list::capacity + lane_count<std::uint32_t>];
     each_near(
-        p, own, boundary, p.boundary_reach2, near, [&] { return std::size_t{own.fluid()}; },
+        t, own, boundary, static_cast<float>(boundary_reach<I>()), near, [&] { return std::size_t{own.fluid()}; },
         [&](std::uint32_t i, const float(&place)[D], std::size_t) HWY_ATTR {
           const std::uint32_t* const end = near.template find<false>(place, 0, near.size(), hits);
           if (end == hits) return;
@@ -93,37 +92,37 @@ class tile_kernel {
 
   /// Makes `near` hold candidates around particle i, from the cursor on, as many as it takes; returns the cursor behind
   /// them.
-  static HWY_INLINE cursor copy(const problem<I>& p, std::uint32_t i, real reach2, cursor c, near_list& near) {
-    near.clear(p.position(i), reach2);
+  static HWY_INLINE cursor copy(const tiles& t, std::uint32_t i, float reach, cursor c, near_list& near) {
+    near.clear(t.place, i, reach);
     while (!c.done() && !near.full()) {
-      near.take(p.x, p.count, c.rest);
+      near.take(t.place, c.rest);
       if (c.rest.begin == c.rest.end && ++c.at != c.end) c.rest = *c.at;
     }
     near.close();
     return c;
   }
-  static HWY_NOINLINE void copy_again(const problem<I>& p, std::uint32_t i, real reach2, cursor c, near_list& near,
+  static HWY_NOINLINE void copy_again(const tiles& t, std::uint32_t i, float reach, cursor c, near_list& near,
                                       float (&place)[D]) {
-    copy(p, i, reach2, c, near);
-    near.has_near(p.position(i), place);
+    copy(t, i, reach, c, near);
+    near.has_near(t.place, i, place);
   }
 
   /// Calls visit(i, place, first) for every fluid particle of the cell, `near` holding the candidates around it from
   /// number `first` on, and done() after every most() of them; all again for each piece of the candidates if they are
   /// too many to be copied at once.
   template <class Most, class Visit, class Done>
-  static HWY_INLINE void each_near(const problem<I>& p, const cell_range& own, const range_array& ranges, real reach2,
+  static HWY_INLINE void each_near(const tiles& t, const cell_range& own, const range_array& ranges, float reach,
                                    near_list& near, Most&& most, Visit&& visit, Done&& done) {
     std::size_t first = 0;
     for (cursor c(ranges); !c.done(); first += near.size()) {
       const cursor start = c;
-      c = copy(p, own.fluid_begin, reach2, c, near);
+      c = copy(t, own.fluid_begin, reach, c, near);
       for (std::uint32_t i = own.fluid_begin; i < own.fluid_end;) {
         const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(own.fluid_end, i + most()));
         for (; i < end; ++i) {
           float place[D];
-          if (!near.has_near(p.position(i), place)) [[unlikely]]
-            copy_again(p, i, reach2, start, near, place);
+          if (!near.has_near(t.place, i, place)) [[unlikely]]
+            copy_again(t, i, reach, start, near, place);
           visit(i, place, first);
         }
         done();

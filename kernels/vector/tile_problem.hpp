@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -31,10 +33,16 @@ inline constexpr bool takes_lanes =
     made_of<particle_of<I>, typename I::real>() && made_of<boundary_particle_of<I>, typename I::real>() &&
     made_of<rates_of<I>, typename I::real>();
 
-/// What a vector kernel sees: the problem, and the fluid once more as rows, so that a particle that was found is loaded
-/// whole: its position and the fields it brings to a pair, then, from `rates_at` on, its rates. For the talk's formula
-/// in 3D and double that makes two cache lines. The rows behind the fluid, some for each thread, are nowhere (NaN), so
-/// in reach of nothing: lanes without a particle point there.
+/// Places are whole numbers, so many to a reach: one for 32 bits of a particle's distance to any other, taken modulo
+/// 2^32, where differences of particles that are near each other are exact.
+inline constexpr std::int32_t places_per_reach = 1 << 20;
+/// Columns of places can be read so far behind their end.
+inline constexpr std::size_t place_room = 32;
+
+/// What a vector kernel sees: the problem, the places of all particles, and the fluid once more as rows, so that a
+/// particle that was found is loaded whole: its position and the fields it brings to a pair, then, from `rates_at` on,
+/// its rates. For the talk's formula in 3D and double that makes two cache lines. The rows behind the fluid, some for
+/// each thread, are nowhere (NaN), so in reach of nothing: lanes without a particle point there.
 template <class I>
 struct tile_problem {
   using real = typename I::real;
@@ -42,7 +50,8 @@ struct tile_problem {
   static constexpr std::size_t rates_at = padded(values), stride = rates_at + padded(rates);
 
   const problem<I>* p;
-  real* rows;  ///< [particle][stride], on 64-byte boundaries
+  std::array<const std::int32_t*, I::dim> place;  ///< [particle]; rounded to the nearest
+  real* rows;                                     ///< [particle][stride], on 64-byte boundaries
   /// Decides r^2 < reach2 for particles i and j as scalar code does; nullptr if lanes round alike. One of the two may
   /// fuse products and sums (see fused()) and the other not, which matters for pairs within rounding of the reach.
   bool (*in_reach)(const problem<I>& p, std::uint32_t i, std::uint32_t j, real reach2);

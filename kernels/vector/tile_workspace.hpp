@@ -1,5 +1,7 @@
 #pragma once
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -60,6 +62,8 @@ class tile_workspace {
       t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) fill(p, i);
       });
+      for (auto& column : place_) column.resize(p.count + place_room);
+      t.for_pieces(p.count, [&](std::size_t begin, std::size_t end, std::size_t) { fill_places(p, begin, end); });
       std::fill(rows_.end() - static_cast<std::ptrdiff_t>(spare * tiles::stride), rows_.end(),
                 std::numeric_limits<real>::quiet_NaN());
     }
@@ -89,7 +93,9 @@ class tile_workspace {
   void sum_block(const problem<I>& p, unsigned colour, std::size_t block, int thread, Probe& probe) {
     const auto cell = blocks_(colour, block);
     if (kernel_) {
-      const tiles view{&p, rows_.data(), rounds_alike_ ? nullptr : &in_reach};
+      std::array<const std::int32_t*, I::dim> place;
+      for (int d = 0; d < I::dim; ++d) place[d] = place_[d].data();
+      const tiles view{&p, place, rows_.data(), rounds_alike_ ? nullptr : &in_reach};
       kernel_(view, cell.data(), cell.size(),
               static_cast<std::uint32_t>(p.fluid_count + spare_rows * static_cast<std::size_t>(thread)));
     } else {
@@ -133,6 +139,25 @@ class tile_workspace {
     each_scalar(p.formula->derive(state), [&](const real& a, int k) { row[I::dim + k] = a; });
   }
 
+  /// From the first particle, so that a world far from 0 keeps its digits.
+  void fill_places(const problem<I>& p, std::size_t begin, std::size_t end) {
+    const double scale = places_per_reach / std::sqrt(static_cast<double>(p.reach2));
+    for (int d = 0; d < I::dim; ++d) {
+      const real* const x = p.x.column[d];
+      const double first = x[0];
+      for (std::size_t i = begin; i < end; ++i)
+        place_[d][i] = modulo_2_32(std::floor((static_cast<double>(x[i]) - first) * scale + 0.5));
+    }
+  }
+  /// A whole number modulo 2^32, whatever its size.
+  static std::int32_t modulo_2_32(double x) {
+    constexpr double turn = 4294967296;
+    const double rest = x - std::floor(x * (1 / turn) + 0.5) * turn;  // in [-2^31, 2^31]
+    // Where doubles are coarser than 2^32 places, any number will do that is the same for the same x.
+    return static_cast<std::int32_t>(
+        static_cast<std::uint32_t>(static_cast<std::int64_t>(std::abs(rest) <= turn ? rest : 0)));
+  }
+
   template <class Probe>
   void sum_scalar(const problem<I>& p, std::size_t cell, Probe& probe) {
     if constexpr (symmetric) {
@@ -145,6 +170,7 @@ class tile_workspace {
   }
 
   column<real> rows_;
+  std::array<column<std::int32_t>, I::dim> place_;
   cell_blocks<I::dim> blocks_;
   tile_function<I> kernel_ = nullptr;
   bool rounds_alike_ = true;
