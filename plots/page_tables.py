@@ -39,6 +39,7 @@ TABLES = (
      _WORLD + _POINT + _GRAIN + [("sum [ms]", _key("time_s", 1e3), NUMBER), ("interval [ms]", _in_ms, NUMBER),
       ("step [ms]", _key("total_s", 1e3), NUMBER), ("ns per pair", _key("ns_per_pair"), NUMBER),
       ("useful pairs [%]", _key("useful_pair_ratio", 100, 3), NUMBER),
+      ("filled lanes [%]", _key("occupancy", 100, 3), NUMBER), ("blocks made", _key("block_made"), TEXT),
       ("wait [%]", _key("wait_share", 100, 3), NUMBER), ("of the bound [%]", _key("share_of_bound", 100, 3), NUMBER),
       ("limited by", _key("limited_by"), TEXT), ("between rounds [%]", _key("between", 100, 2), NUMBER),
       ("rounds", _key("rounds"), NUMBER)]),
@@ -96,7 +97,8 @@ def _flat(summary, name, row):
     if name in ("points", "failed") and isinstance(row.get("point"), dict):
         some = row.get("phases") or {}
         total, time = (some.get(phase) or {} for phase in ("total_s", "sum_s"))
-        row = {**row["point"], **(row.get("passes") or {}), **(row.get("model") or {}),
+        units = (row.get("work") or {}).get("vector_units") or {}
+        row = {"occupancy": units.get("occupancy"), "block_made": units.get("block"), **row["point"], **(row.get("passes") or {}), **(row.get("model") or {}),
                **(row.get("variance") or {}), **row,
                "low": time.get("low"), "high": time.get("high"),
                "time_s": time.get("median"), "total_s": total.get("median")}

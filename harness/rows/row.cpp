@@ -78,6 +78,11 @@ work_row read_work(fields from) {
   work_row w;
   for (const work_member& member : work_members) w.*member.value = from.count(member.name);
   w.pairs_tested_unfolded = from.count_or_null("pairs_tested_unfolded");
+  if (from.has("vector_units")) {  // of vector backends alone
+    fields units = from.nested("vector_units");
+    w.vector_units = {units.text("block"), units.count("lanes"), units.count("vectors"), units.number("occupancy")};
+    units.finish();
+  }
   from.finish();
   return w;
 }
@@ -136,10 +141,15 @@ void to_json(json& j, const phases& p) {
   for (const phase_member& phase : phase_members) j[phase.name] = finite(p.*phase.value);
 }
 
+void to_json(json& j, const vector_use& v) {
+  j = {{"block", v.block}, {"lanes", v.lanes}, {"vectors", v.vectors}, {"occupancy", finite(v.occupancy)}};
+}
+
 void to_json(json& j, const work_row& w) {
   j = json::object();
   for (const work_member& member : work_members) j[member.name] = w.*member.value;
   j["pairs_tested_unfolded"] = or_null(w.pairs_tested_unfolded);
+  if (w.vector_units) j["vector_units"] = *w.vector_units;
 }
 
 void to_json(json& j, const counters_row& c) {

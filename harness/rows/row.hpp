@@ -60,11 +60,20 @@ inline constexpr std::array<phase_member, 7> phase_members{{{"index_s", &phases:
                                                             {"integrate_s", &phases::integrate_s},
                                                             {"total_s", &phases::total_s}}};
 
+/// How a vector backend used its units: blocks of cells as made, and vectors of pairs with the share of lanes in use.
+struct vector_use {
+  std::string block;
+  std::uint64_t lanes = 0, vectors = 0;
+  double occupancy = 0;
+  bool operator==(const vector_use&) const = default;
+};
+
 /// Counted work of the initial state; pairs count once each (i < j).
 struct work_row {
   std::uint64_t cells = 0, cells_nonempty = 0, sumF1 = 0, sumF2 = 0, pairs_tested = 0, pairs_interacting = 0,
                 pairs_fluid_fluid = 0, pairs_fluid_boundary = 0;
   std::optional<std::uint64_t> pairs_tested_unfolded;  ///< distance tests without folded cells
+  std::optional<vector_use> vector_units{};            ///< of vector backends
   bool operator==(const work_row&) const = default;
 };
 
@@ -160,6 +169,7 @@ using row = std::variant<sample, environment_row, void_row, peak_row, round_row,
 /// To JSON with exactly the keys of the schema; numbers that are not finite become null.
 void to_json(nlohmann::json& json, const point& value);
 void to_json(nlohmann::json& json, const phases& value);
+void to_json(nlohmann::json& json, const vector_use& value);
 void to_json(nlohmann::json& json, const work_row& value);
 void to_json(nlohmann::json& json, const verify_row& value);
 void to_json(nlohmann::json& json, const sample& value);

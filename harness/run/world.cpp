@@ -66,7 +66,7 @@ void world::complete(point& p) const {
 }
 
 work_row world::work_of(const point& p, summation& s) {
-  const auto [at, is_new] = work_.try_emplace(fmt::format("{} {} {} {}", p.backend, p.grid, p.M, p.block));
+  const auto [at, is_new] = work_.try_emplace(fmt::format("{} {} {} {} {}", p.backend, p.grid, p.M, p.block, p.isa));
   if (is_new) {
     const work_counts w = s.count_work();
     if (!unfolded_) unfolded_ = s.count_unfolded_tests();
@@ -79,6 +79,12 @@ work_row world::work_of(const point& p, summation& s) {
                   w.pairs_fluid_fluid,
                   w.pairs_fluid_boundary,
                   {}};
+    if (const std::size_t lanes = s.lanes(); lanes > 1) {
+      const std::uint64_t vectors = w.vectors_of(lanes);
+      const double room = static_cast<double>(lanes * vectors);
+      at->second.vector_units = {s.block(), lanes, vectors,
+                                 room > 0 ? static_cast<double>(w.pairs_evaluated) / room : 0};
+    }
     if (unfolded_) at->second.pairs_tested_unfolded = s.traits().symmetric ? unfolded_->symmetric : unfolded_->gather;
   }
   return at->second;

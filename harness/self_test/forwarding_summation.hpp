@@ -30,6 +30,8 @@ class forwarding_summation : public summation {
   void reduce(const team& t) override { inner_->reduce(t); }
   void observe(pass_observer* observer) override { inner_->observe(observer); }
   std::optional<unfolded_tests> count_unfolded_tests() const override { return inner_->count_unfolded_tests(); }
+  std::string block() const override { return inner_->block(); }
+  std::size_t lanes() const override { return inner_->lanes(); }
   work_counts count_work() override { return inner_->count_work(); }
   rate_table rates() const override { return inner_->rates(); }
   std::uint64_t fingerprint() const override { return inner_->fingerprint(); }

@@ -11,23 +11,41 @@ namespace pairsum {
 namespace {
 
 constexpr std::array<std::string_view, 3> shape_names{"slab", "pencil", "brick"};
+constexpr std::array<std::string_view, 3> order_names{"rows", "bundles", "morton"};  // by cell_order
 constexpr int widest = 4096;
 
 }  // namespace
 
 block_shape block_shape::parse(const std::string& word) {
-  const std::size_t colon = word.find(':');
-  const auto name = std::ranges::find(shape_names, word.substr(0, colon));
+  const auto parts = [&] {
+    std::array<std::string_view, 4> part{};  // a fourth is one too many
+    std::string_view rest = word;
+    for (std::string_view& p : part) {
+      const std::size_t colon = std::min(rest.find(':'), rest.size());
+      p = rest.substr(0, colon);
+      rest.remove_prefix(std::min(colon + 1, rest.size()));
+    }
+    return part;
+  }();
+  const auto name = std::ranges::find(shape_names, parts[0]);
+  const bool has_order = std::ranges::count(word, ':') == 2;
+  const auto order = has_order ? std::ranges::find(order_names, parts[2]) : order_names.begin() + 1;
   int width = 0;
-  if (name != shape_names.end() && colon != std::string::npos) {
-    const char *begin = word.data() + colon + 1, *end = word.data() + word.size();
-    const auto [at, failed] = std::from_chars(begin, end, width);
-    if (failed != std::errc() || at != end) width = 0;
-  }
-  if (width < 2 || width > widest)
+  const char *begin = parts[1].data(), *end = begin + parts[1].size();
+  const auto [at, failed] = std::from_chars(begin, end, width);
+  if (failed != std::errc() || at != end || std::ranges::count(word, ':') > 2 || name == shape_names.end() ||
+      order == order_names.end() || width < 2 || width > widest)
     throw error("block must be auto, slab:N, pencil:N or brick:N with N from 2 to " + std::to_string(widest) +
-                " cells, is \"" + word + "\"");
-  return {static_cast<int>(name - shape_names.begin()) + 1, width};
+                " cells, and :rows or :morton if its cells are to be in another order than bundles, is \"" + word +
+                "\"");
+  return {static_cast<int>(name - shape_names.begin()) + 1, width, false,
+          static_cast<cell_order>(order - order_names.begin())};
+}
+
+std::string block_shape::word() const {
+  std::string w = std::string(shape_names[static_cast<std::size_t>(axes) - 1]) + ":" + std::to_string(width);
+  if (order != cell_order::bundles) w += ":" + std::string(order_names[static_cast<std::size_t>(order)]);
+  return w;
 }
 
 block_shape block_shape::fitting(int dim, std::size_t cache_bytes, std::size_t bytes_per_cell) {

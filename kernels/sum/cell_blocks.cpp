@@ -18,10 +18,26 @@ struct hash {
   }
 };
 
+template <int D>
+using numbers = std::unordered_map<ivec<D>, std::uint32_t, hash<D>>;
+
+/// Bits of the coordinates in turns, the first axis' lowest.
+template <int D>
+std::uint64_t morton_code(const ivec<D>& at) {
+  std::uint64_t code = 0;
+  for (int bit = 0; bit < 64 / D; ++bit)
+    for (int d = 0; d < D; ++d) code |= (static_cast<std::uint64_t>(at[d]) >> bit & 1) << (bit * D + d);
+  return code;
+}
+
 }  // namespace
 
 template <int D>
 void cell_blocks<D>::build(const cells<D>& c) {
+  const auto end = c.place.begin() + static_cast<std::ptrdiff_t>(c.fluid_cells) + 1;
+  if (c.period == period_ && c.fluid_cells + 1 == place_.size() &&
+      std::equal(c.place.begin() + 1, end, place_.begin() + 1))
+    return;
   const int axes = std::min(shape_.axes, D);
   // On a torus of 2^M cells the blocks must be as wide each, and their colours must alternate all the way round.
   std::int64_t width = shape_.width;
@@ -30,36 +46,12 @@ void cell_blocks<D>::build(const cells<D>& c) {
     throw error("blocks of " + std::to_string(width) + " cells do not go round a torus of " + std::to_string(c.period) +
                 " cells in two colours: take a power of two up to " + std::to_string(c.period / 2) +
                 ", or a grid that takes no M");
-  // Blocks are numbered as they are met in the order of the grid.
-  struct found {
-    unsigned colour;
-    std::uint32_t cells, next;
-  };
-  std::vector<found> blocks;
-  std::unordered_map<ivec<D>, std::uint32_t, hash<D>> number;
-  block_.resize(c.fluid_cells + 1);
-  ivec<D> last{};
-  std::uint32_t last_number = 0;
-  for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) {
-    ivec<D> at{};
-    for (int d = D - axes; d < D; ++d) at[d] = c.place[cell][d] / width;
-    if (cell == 1 || at != last) {
-      const auto [entry, is_new] = number.try_emplace(at, static_cast<std::uint32_t>(blocks.size()));
-      if (is_new) {
-        unsigned colour = 0;
-        for (int d = 0; d < axes && !one_pass_; ++d) colour |= static_cast<unsigned>(at[D - axes + d] & 1) << d;
-        blocks.push_back({colour, 0, 0});
-      }
-      last = at;
-      last_number = entry->second;
-    }
-    ++blocks[last_number].cells;
-    block_[cell] = last_number;
-  }
+  width_ = static_cast<int>(width);
+  find_strands(c, axes);
   begin_.assign(one_pass_ ? 1 : std::size_t{1} << axes, {});
   std::uint32_t position = 0;
   for (unsigned colour = 0; colour < begin_.size(); ++colour) {
-    for (found& b : blocks)
+    for (block& b : blocks_)
       if (b.colour == colour) {
         begin_[colour].push_back(position);
         b.next = position;
@@ -67,9 +59,77 @@ void cell_blocks<D>::build(const cells<D>& c) {
       }
     begin_[colour].push_back(position);
   }
+  for (strand& s : strands_) {
+    s.next = blocks_[s.block].next;
+    blocks_[s.block].next += s.cells;
+  }
+  place_in_order(c);
+  place_.assign(c.place.begin(), end);
+  period_ = c.period;
+}
+
+/// Blocks and the strands that make them are numbered as they are met in the order of the grid.
+template <int D>
+void cell_blocks<D>::find_strands(const cells<D>& c, int axes) {
+  numbers<D> strand_at, block_at;
+  blocks_.clear();
+  strands_.clear();
+  strand_of_.resize(c.fluid_cells + 1);
+  const bool bundled = shape_.order == cell_order::bundles;
+  ivec<D> last{};
+  std::uint32_t number = 0;
+  for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) {
+    const ivec<D>& at = c.place[cell];
+    ivec<D> in_block{}, in_strand{};
+    for (int d = 0; d < D; ++d) {
+      const bool cut = d >= D - axes;
+      in_block[d] = cut ? at[d] / width_ : 0;
+      in_strand[d] = in_block[d];
+      if (bundled && d > 0) in_strand[d] = cut ? in_block[d] * width_ + at[d] % width_ / 2 : at[d] / 2;
+    }
+    if (cell == 1 || in_strand != last) {
+      const auto [entry, is_new] = strand_at.try_emplace(in_strand, static_cast<std::uint32_t>(strands_.size()));
+      if (is_new) {
+        const auto [own, opens] = block_at.try_emplace(in_block, static_cast<std::uint32_t>(blocks_.size()));
+        unsigned colour = 0;
+        for (int d = 0; d < axes && !one_pass_; ++d) colour |= static_cast<unsigned>(in_block[D - axes + d] & 1) << d;
+        if (opens) blocks_.push_back({colour, 0, 0});
+        strands_.push_back({own->second, 0, 0});
+      }
+      last = in_strand;
+      number = entry->second;
+    }
+    ++strands_[number].cells;
+    ++blocks_[strands_[number].block].cells;
+    strand_of_[cell] = number;
+  }
+}
+
+template <int D>
+void cell_blocks<D>::place_in_order(const cells<D>& c) {
   order_.resize(c.fluid_cells);
-  for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell)
-    order_[blocks[block_[cell]].next++] = static_cast<std::uint32_t>(cell);
+  const auto place = [&](std::size_t cell) {
+    order_[strands_[strand_of_[cell]].next++] = static_cast<std::uint32_t>(cell);
+  };
+  if (shape_.order == cell_order::bundles && D > 1) {
+    // The cells of a strand along the first axis: a counting sort of all, which keeps the grid's order among equals.
+    std::int64_t most = 0;
+    for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) most = std::max<std::int64_t>(most, c.place[cell][0]);
+    std::vector<std::uint32_t> begin(static_cast<std::size_t>(most) + 2), along(c.fluid_cells);
+    for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) ++begin[static_cast<std::size_t>(c.place[cell][0]) + 1];
+    for (std::size_t x = 1; x < begin.size(); ++x) begin[x] += begin[x - 1];
+    for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell)
+      along[begin[static_cast<std::size_t>(c.place[cell][0])]++] = static_cast<std::uint32_t>(cell);
+    for (const std::uint32_t cell : along) place(cell);
+  } else {
+    for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) place(cell);
+  }
+  if (shape_.order == cell_order::morton)
+    for (const auto& blocks : begin_)
+      for (std::size_t b = 0; b + 1 < blocks.size(); ++b)
+        std::sort(order_.begin() + blocks[b], order_.begin() + blocks[b + 1], [&](std::uint32_t a, std::uint32_t o) {
+          return morton_code<D>(c.place[a]) < morton_code<D>(c.place[o]);
+        });
 }
 
 template class cell_blocks<1>;

@@ -15,8 +15,8 @@ namespace pairsum {
 ///     colour 0 |   1   |   0   |   1        a slab:4 of colour 0 writes to cells -1..4,
 ///     0 1 2 3  |4 5 6 7|8 9 ..  |           the next one of its colour to 7..12
 ///
-/// Blocks of a colour are a whole block apart and at least 2 wide, so they share no cell. Which cells make a block, and
-/// the order of a colour's blocks, do not depend on the team.
+/// Blocks of a colour are a whole block apart and at least 2 wide, so they share no cell. Which cells make a block,
+/// their order in it (cell_order), and the order of a colour's blocks do not depend on the team.
 template <int D>
 class cell_blocks {
  public:
@@ -24,11 +24,15 @@ class cell_blocks {
   void shape(const block_shape& s, bool one_pass = false) {
     shape_ = s;
     one_pass_ = one_pass;
+    place_.clear();
   }
 
-  /// Throws pairsum::error if blocks of two colours do not fit on a grid that closes on itself.
+  /// Does nothing if the cells are those of the last call. Throws pairsum::error if blocks of two colours do not fit on
+  /// a grid that closes on itself.
   void build(const cells<D>& c);
 
+  /// As built: its width fits the grid.
+  block_shape shape() const { return {shape_.axes, width_, false, shape_.order}; }
   unsigned colours() const { return static_cast<unsigned>(begin_.size()); }
   /// Blocks of a colour.
   std::size_t size(unsigned colour) const { return begin_[colour].size() - 1; }
@@ -38,10 +42,27 @@ class cell_blocks {
   }
 
  private:
+  struct block {
+    unsigned colour;
+    std::uint32_t cells, next;
+  };
+  /// Cells of a block that follow each other.
+  struct strand {
+    std::uint32_t block, cells, next;
+  };
+
+  void find_strands(const cells<D>& c, int axes);
+  void place_in_order(const cells<D>& c);
+
   block_shape shape_;
   bool one_pass_ = false;
+  int width_ = 0;
   std::vector<std::vector<std::uint32_t>> begin_;  ///< by colour: where in order_ its blocks begin, and the end
-  column<std::uint32_t> order_, block_;
+  std::vector<block> blocks_;
+  std::vector<strand> strands_;
+  column<std::uint32_t> order_, strand_of_;
+  std::vector<ivec<D>> place_;  ///< of the cells as built last
+  std::int64_t period_ = 0;
 };
 
 extern template class cell_blocks<1>;

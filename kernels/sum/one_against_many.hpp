@@ -43,6 +43,7 @@ template <class I, class Probe, class FluidRanges, class BoundaryRanges>
   if constexpr (Probe::counting) {
     probe.tested(filter_of<I>::size(fluid));
     probe.fluid_pairs(n);
+    probe.pairs_of_one(n);
   }
   add_boundary(p, i, a, boundary, u_i, probe);
   p.u.add(i, u_i);
@@ -56,7 +57,7 @@ template <class I, class Probe, class FluidRanges, class BoundaryRanges>
   const auto x_i = p.position(i);
   const auto a = p.fluid.load(i);
   auto u_i = zero<rates_of<I>>();
-  filter_of<I>::each_in_reach(
+  [[maybe_unused]] const std::size_t n = filter_of<I>::each_in_reach(
       p.x, x_i, p.reach2, fluid, [&](std::uint32_t j) __attribute__((always_inline)) {
         const vec<I::dim, typename I::real> r = x_i - p.position(j);
         add(u_i, p.formula->pair(r, norm2<I::dim, typename I::real>(r), a, p.fluid.load(j)).to_i);
@@ -65,7 +66,10 @@ template <class I, class Probe, class FluidRanges, class BoundaryRanges>
           probe.evaluated(1);
         }
       });
-  if constexpr (Probe::counting) probe.tested(filter_of<I>::size(fluid));
+  if constexpr (Probe::counting) {
+    probe.tested(filter_of<I>::size(fluid));
+    probe.pairs_of_one(n);
+  }
   add_boundary(p, i, a, boundary, u_i, probe);
   p.u.store(i, u_i);
 }

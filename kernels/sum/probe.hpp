@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/pass_observer.hpp"
@@ -13,8 +15,15 @@ struct work_counts {
   std::uint64_t pairs_fluid_fluid = 0;  ///< interacting pairs, each once
   std::uint64_t pairs_fluid_boundary = 0;
   std::uint64_t pairs_evaluated = 0;  ///< times the formula was evaluated
+  /// Vectors that the fluid pairs of each particle i fill, the last one in part, for 2, 4, 8, 16 lanes.
+  std::array<std::uint64_t, 4> vectors{};
 
   std::uint64_t pairs_interacting() const { return pairs_fluid_fluid + pairs_fluid_boundary; }
+  std::uint64_t vectors_of(std::size_t lanes) const {
+    for (std::size_t k = 0; k < vectors.size(); ++k)
+      if (std::size_t{2} << k == lanes) return vectors[k];
+    return pairs_evaluated;
+  }
 };
 
 /// Distance tests on a grid without folded cells: by the gather (each fluid pair twice) and by symmetric sums.
@@ -31,6 +40,7 @@ struct no_probe : pass_marks {
   void fluid_pairs(std::uint64_t) {}
   void boundary_pairs(std::uint64_t) {}
   void evaluated(std::uint64_t) {}
+  void pairs_of_one(std::uint64_t) {}
 };
 
 /// Counts; for one thread, unobserved.
@@ -43,6 +53,9 @@ struct work_probe : pass_marks {
   void fluid_pairs(std::uint64_t n) { counts.pairs_fluid_fluid += n; }
   void boundary_pairs(std::uint64_t n) { counts.pairs_fluid_boundary += n; }
   void evaluated(std::uint64_t n) { counts.pairs_evaluated += n; }
+  void pairs_of_one(std::uint64_t n) {
+    for (std::size_t k = 0; k < counts.vectors.size(); ++k) counts.vectors[k] += (n + (2u << k) - 1) >> (k + 1);
+  }
 };
 
 }  // namespace pairsum

@@ -1,6 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "particles/particle_table.hpp"
@@ -48,6 +50,11 @@ class summation {
 
   /// The work of a summation of the state as indexed last; an untimed instantiation of its own, on one thread.
   virtual work_counts count_work() = 0;
+
+  /// The blocks of cells that the backend made of the state as prepared last, as a word of block_shape; "none" for
+  /// backends without.
+  virtual std::string block() const = 0;
+  virtual std::size_t lanes() const = 0;  ///< pairs that are evaluated at a time
 
   /// The distance tests a grid that folds nothing would need for the state as loaded or indexed last; empty if the
   /// precision does not resolve H in an Omega of that size.

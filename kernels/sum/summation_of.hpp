@@ -68,6 +68,20 @@ class summation_of final : public interaction_state<I> {
     if constexpr (requires { workspace_.reduce(view_, t); }) workspace_.reduce(view_, t);
   }
 
+  std::string block() const override {
+    if constexpr (requires { workspace_.block(); })
+      return workspace_.block();
+    else
+      return "none";
+  }
+
+  std::size_t lanes() const override {
+    if constexpr (requires { workspace_.lanes(); })
+      return workspace_.lanes();
+    else
+      return 1;
+  }
+
   work_counts count_work() override { return count_work_of<B>(this->particles_, this->index_, this->setup_); }
 
  private:

@@ -67,7 +67,8 @@ using tile_function = void (*)(const tile_problem<I>&, const std::uint32_t* cell
 template <class I>
 struct tile_kernels {
   std::string_view isa;
-  bool fuses;  ///< rounds a*b + c once
+  std::size_t lanes;  ///< pairs in a vector
+  bool fuses;         ///< rounds a*b + c once
   tile_function<I> symmetric, gather;
 };
 

@@ -42,6 +42,7 @@ class tile_workspace {
       for (const tile_kernels<I>& k : kernels)
         if (!kernel_ && (s.isa == best_isa || k.isa == s.isa)) {
           kernel_ = symmetric ? k.symmetric : k.gather;
+          lanes_ = k.lanes;
           rounds_alike_ = I::dim == 1 || k.fuses == scalar_fuses;
         }
       if (!kernel_ && !kernels.empty())
@@ -113,6 +114,8 @@ class tile_workspace {
       });
   }
 
+  std::size_t lanes() const { return lanes_; }
+  std::string block() const { return blocks_.shape().word(); }
   unsigned colours() const { return blocks_.colours(); }
   std::size_t blocks(unsigned colour) const { return blocks_.size(colour); }
 
@@ -173,6 +176,7 @@ class tile_workspace {
   std::array<column<std::int32_t>, I::dim> place_;
   cell_blocks<I::dim> blocks_;
   tile_function<I> kernel_ = nullptr;
+  std::size_t lanes_ = 1;
   bool rounds_alike_ = true;
   int threads_ = 0;
 };

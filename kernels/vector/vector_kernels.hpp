@@ -36,7 +36,8 @@ constexpr std::string_view compiled_vector_isa() {
 template <class I>
 tile_kernels<I> compiled_kernels() {
   using kernel = tile_kernel<I, lane_vector<typename I::real>>;
-  return {compiled_vector_isa(), HWY_NATIVE_FMA != 0, &kernel::template sum<true>, &kernel::template sum<false>};
+  return {compiled_vector_isa(), lane_count<typename I::real>, HWY_NATIVE_FMA != 0, &kernel::template sum<true>,
+          &kernel::template sum<false>};
 }
 #endif
 

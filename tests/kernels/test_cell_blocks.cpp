@@ -15,16 +15,16 @@ struct shaped_grid {
   grid_choice grid;
   block_shape shape;
 };
-std::ostream& operator<<(std::ostream& o, const shaped_grid& s) {
-  return o << s.grid << " axes " << s.shape.axes << " width " << s.shape.width;
-}
+std::ostream& operator<<(std::ostream& o, const shaped_grid& s) { return o << s.grid << " " << s.shape.word(); }
 
 std::vector<shaped_grid> every_shape() {
   std::vector<shaped_grid> all;
   for (const grid_choice& grid : every_grid({2, 3, 6}))
     for (const int axes : {1, 2, 3})
       for (const int width : {2, 3, 4})
-        if (grid.M == 0 || (1 << grid.M) % (2 * width) == 0) all.push_back({grid, {axes, width}});
+        if (grid.M == 0 || (1 << grid.M) % (2 * width) == 0)
+          for (const cell_order order : {cell_order::rows, cell_order::bundles, cell_order::morton})
+            all.push_back({grid, {axes, width, false, order}});
   return all;
 }
 
@@ -103,11 +103,66 @@ TEST(cell_blocks, what_does_not_go_round_a_torus_is_refused_or_narrowed) {
   EXPECT_EQ(error_of([&] { blocks.build(s.index.view()); }), "");
 }
 
+/// The places of a block's cells, in its order.
+std::vector<std::array<int, 3>> places(const cells<3>& c, const cell_blocks<3>& blocks) {
+  std::vector<std::array<int, 3>> all;
+  for (const std::uint32_t cell : blocks(0, 0))
+    all.push_back(
+        {static_cast<int>(c.place[cell][0]), static_cast<int>(c.place[cell][1]), static_cast<int>(c.place[cell][2])});
+  return all;
+}
+
+TEST(cell_blocks, cells_are_visited_in_the_order_asked_for) {
+  cells<3> c;
+  c.fluid_cells = 64;
+  c.resize_fluid();
+  for (int k = 0; k < 64; ++k) c.place[static_cast<std::size_t>(k) + 1] = ivec<3>(k % 4, k / 4 % 4, k / 16);
+  cell_blocks<3> blocks;
+  using at = std::array<int, 3>;
+  const auto first = [&](cell_order order) {
+    blocks.shape({3, 4, false, order});
+    blocks.build(c);
+    auto p = places(c, blocks);
+    EXPECT_EQ(p.size(), 64u);
+    p.resize(9);
+    return p;
+  };
+  EXPECT_EQ(first(cell_order::rows),
+            (std::vector<at>{
+                {0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {3, 1, 0}, {0, 2, 0}}));
+  EXPECT_EQ(first(cell_order::bundles),
+            (std::vector<at>{
+                {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 1}, {2, 0, 0}}));
+  EXPECT_EQ(first(cell_order::morton),
+            (std::vector<at>{
+                {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}, {2, 0, 0}}));
+}
+
+TEST(cell_blocks, follow_cells_that_move) {
+  cells<3> c;
+  c.fluid_cells = 2;
+  c.resize_fluid();
+  c.place[1] = ivec<3>(0, 0, 0);
+  c.place[2] = ivec<3>(0, 0, 9);
+  cell_blocks<3> blocks;
+  blocks.shape({1, 2});
+  blocks.build(c);
+  EXPECT_EQ(blocks.size(0), 2u);
+  c.place[2] = ivec<3>(0, 0, 1);
+  blocks.build(c);
+  EXPECT_EQ(blocks.size(0), 1u);
+}
+
 TEST(block_shape, is_read) {
   EXPECT_EQ(block_shape::parse("slab:2"), (block_shape{1, 2}));
   EXPECT_EQ(block_shape::parse("pencil:16"), (block_shape{2, 16}));
   EXPECT_EQ(block_shape::parse("brick:4096"), (block_shape{3, 4096}));
-  for (const char* wrong : {"", "slab", "slab:", "slab:1", "slab:4097", "slab:2x", "tile:2", "brick:-2", "brick: 2"})
+  EXPECT_EQ(block_shape::parse("brick:4:morton"), (block_shape{3, 4, false, cell_order::morton}));
+  for (const char* word : {"slab:2", "pencil:16:rows", "brick:3:morton"})
+    EXPECT_EQ(block_shape::parse(word).word(), word);
+  EXPECT_EQ(block_shape::parse("slab:2:bundles").word(), "slab:2");
+  for (const char* wrong : {"", "slab", "slab:", "slab:1", "slab:4097", "slab:2x", "tile:2", "brick:-2", "brick: 2",
+                            "slab:2:", "slab:2:hilbert", "slab:2:rows:rows", ":2", "slab::rows"})
     EXPECT_TRUE(says(error_of([&] { block_shape::parse(wrong); }), {"block must be auto, slab:N", wrong})) << wrong;
   EXPECT_EQ(error_of([] { check_block("auto"); }), "");
 }

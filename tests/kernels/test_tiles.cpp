@@ -3,6 +3,7 @@
 #include "core/isa.hpp"
 #include "core/random.hpp"
 #include "scene.hpp"
+#include "sum/probe.hpp"
 
 // What only vector backends have: instruction sets, blocks, copies of limited size.
 namespace pairsum {
@@ -40,6 +41,56 @@ TEST_P(tiles_test, every_instruction_set_is_within_the_bound) {
       world.isa = isa;
       EXPECT_EQ(disagreement(evaluated(world, s.particles, 2)->rates(), expected), "") << f << " " << isa;
     }
+  }
+}
+
+/// Vectors are counted for what they hold: every list of hits is filled up to whole ones.
+TEST(tiles, lanes_in_use_are_counted) {
+  work_probe probe;
+  for (const std::uint64_t n : {0, 1, 8, 9, 17}) probe.pairs_of_one(n);
+  EXPECT_EQ(probe.counts.vectors,
+            (std::array<std::uint64_t, 4>{0 + 1 + 4 + 5 + 9, 0 + 1 + 2 + 3 + 5, 0 + 1 + 1 + 2 + 3, 0 + 1 + 1 + 1 + 2}));
+  EXPECT_EQ(probe.counts.vectors_of(8), 7u);
+  probe.counts.pairs_evaluated = 35;
+  EXPECT_EQ(probe.counts.vectors_of(1), 35u);
+}
+
+TEST_P(tiles_test, blocks_and_lanes_are_told) {
+  scene s = make_scene("dam_break", 0.06, "rest");
+  setup world = with(s.world, GetParam(), grid_choice("compact_grid", 0));
+  world.block = "pencil:4:morton";
+  const auto sum = evaluated(world, s.particles);
+  EXPECT_EQ(sum->block(), "pencil:4:morton");
+  if (!isa_names().empty()) EXPECT_GT(sum->lanes(), 1u);
+  world.backend = "naive";
+  EXPECT_EQ(evaluated(world, s.particles)->block(), "none");
+  EXPECT_EQ(evaluated(world, s.particles)->lanes(), 1u);
+}
+
+/// Places are counted modulo 2^32 from the first particle: 4096 reaches away they begin again.
+TEST_P(tiles_test, particles_whose_places_coincide_do_not_meet) {
+  scene s = make_scene("dam_break", 0.06, "perturbed");
+  const double turn = 4096 * s.world.constants.H;
+  particle_table twice;
+  for (const particle_kind kind : {particle_kind::fluid, particle_kind::boundary})
+    for (const double shift : {0.0, turn})
+      for (std::size_t i = 0; i < s.particles.size(); ++i) {
+        if (s.particles.kind[i] != kind) continue;
+        const std::size_t k = twice.size();
+        twice.resize(k + 1);
+        for (std::size_t d = 0; d < 3; ++d) {
+          twice.x[d][k] = s.particles.x[d][i] + (d == 0 ? shift : 0);
+          twice.v[d][k] = s.particles.v[d][i];
+        }
+        twice.rho[k] = s.particles.rho[i];
+        twice.m[k] = s.particles.m[i];
+        twice.kind[k] = kind;
+      }
+  s.world.omega_high[0] += turn;
+  for (const grid_choice& grid : {grid_choice("compact_grid", 0), grid_choice("hashed_grid", 2)}) {
+    const setup world = with(s.world, GetParam(), grid);
+    const auto expected = registry::instance().make_reference(world)->brute_force(twice, some_threads());
+    EXPECT_EQ(disagreement(evaluated(world, twice)->rates(), expected), "");
   }
 }
 

@@ -28,6 +28,8 @@ def point(place, series, backend, m, threads, intervals, granularity=None, slowe
     work = {"cells": 8 ** m, "cells_nonempty": min(8 ** m, int(fluid / 3.1 + boundary / 7)),
             "sumF1": 1, "sumF2": 13, "pairs_tested": tested, "pairs_tested_unfolded": unfolded,
             "pairs_interacting": pairs, "pairs_fluid_fluid": pairs, "pairs_fluid_boundary": 0}
+    if backend.startswith("tiles"):
+        work["vector_units"] = {"block": "brick:4", "lanes": 8, "vectors": pairs // 6, "occupancy": 0.75}
     where = {"case": "dam_break", "state": state, "dx": dx, "H": 2 * dx, "n_fluid": fluid,
              "n_boundary": boundary, "order": "lattice", "dim": 3, "precision": "double",
              "interaction": "ferrari09", "smoothing": "wendland_c2", "integrator": "euler", "dt": 1e-05,
