@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/isa.hpp"
 #include "harness/plan/words.hpp"
 
 namespace pairsum::harness {
@@ -38,6 +39,16 @@ level words(std::vector<std::string> run_request::*member) {
             r.*member = parse_words(key, text);
           },
           [member](const run_request& r) { return json(r.*member); }};
+}
+/// The same, "all" being every word of `names`.
+template <class Names>
+level with_all(level one, std::vector<std::string> run_request::*member, Names names) {
+  one.read = [member, names, read = one.read](run_request& r, const std::string& key, const std::string& text, int n) {
+    read(r, key, text, n);
+    const auto all = names();
+    if (r.*member == std::vector<std::string>{"all"} && !all.empty()) (r.*member).assign(all.begin(), all.end());
+  };
+  return one;
 }
 level word(std::string run_request::*member) {
   return {[member](run_request& r, const std::string&, const std::string& text, int) { r.*member = text; },
@@ -89,7 +100,7 @@ const std::map<std::string, level>& levels() {
       {"integrator", words(&r::integrators)},
       {"granularity", words(&r::granularities)},
       {"grid", words(&r::grids)},
-      {"isa", words(&r::isas)},
+      {"isa", with_all(words(&r::isas), &r::isas, isa_names)},
       {"block", words(&r::blocks)},
       {"outside", word(&r::outside)},
       {"dt", number(&r::dt)},

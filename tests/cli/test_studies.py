@@ -56,7 +56,7 @@ def test_dry_run_prints_the_design_and_writes_nothing(pairsum, plan, files):
     assert files() == []
 
 
-@pytest.mark.parametrize("name", ["quick", "talk", "size", "m_sweep", "granularity", "compilers", "self_test"])
+@pytest.mark.parametrize("name", ["quick", "talk", "size", "m_sweep", "granularity", "compilers", "self_test", "vector"])
 def test_plans_that_come_with_the_program(pairsum, files, tmp_path, name):
     shown = pairsum("run", name, "--show-plan")
     assert shown.returncode == 0, shown.stderr
@@ -177,7 +177,7 @@ def test_a_plan_that_is_a_folder_or_missing(pairsum, tmp_path, files):
 
 def test_list_names_the_plans_and_their_titles(pairsum):
     text, plans = pairsum("list").stdout, json.loads(pairsum("list", "--json").stdout)["plans"]
-    assert {"quick", "talk", "m_sweep", "size", "granularity", "compilers", "self_test"} <= {p["name"] for p in plans}
+    assert {"quick", "talk", "m_sweep", "size", "granularity", "compilers", "self_test", "vector"} <= {p["name"] for p in plans}
     for plan in plans:
         assert json.loads(pairsum("run", plan["name"], "--show-plan").stdout)["title"] == plan["title"]
         assert re.search(rf"^  {plan['name']} +{re.escape(plan['title'])}$", text, re.M)
