@@ -98,7 +98,8 @@ def _flat(summary, name, row):
         some = row.get("phases") or {}
         total, time = (some.get(phase) or {} for phase in ("total_s", "sum_s"))
         units = (row.get("work") or {}).get("vector_units") or {}
-        row = {"occupancy": units.get("occupancy"), "block_made": units.get("block"), **row["point"], **(row.get("passes") or {}), **(row.get("model") or {}),
+        row = {"occupancy": units.get("occupancy"), "block_made": units.get("block"),
+               **row["point"], **(row.get("passes") or {}), **(row.get("model") or {}),
                **(row.get("variance") or {}), **row,
                "low": time.get("low"), "high": time.get("high"),
                "time_s": time.get("median"), "total_s": total.get("median")}

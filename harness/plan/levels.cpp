@@ -40,13 +40,15 @@ level words(std::vector<std::string> run_request::*member) {
           },
           [member](const run_request& r) { return json(r.*member); }};
 }
-/// The same, "all" being every word of `names`.
-template <class Names>
-level with_all(level one, std::vector<std::string> run_request::*member, Names names) {
-  one.read = [member, names, read = one.read](run_request& r, const std::string& key, const std::string& text, int n) {
-    read(r, key, text, n);
-    const auto all = names();
-    if (r.*member == std::vector<std::string>{"all"} && !all.empty()) (r.*member).assign(all.begin(), all.end());
+/// Instruction sets; "all" is every one that build and machine have.
+level isas() {
+  level one = words(&run_request::isas);
+  one.read = [read = one.read](run_request& r, const std::string& key, const std::string& text, int cores) {
+    read(r, key, text, cores);
+    if (r.isas != std::vector<std::string>{"all"}) return;
+    const auto all = isa_names();
+    r.isas.assign(all.begin(), all.end());
+    if (all.empty()) r.isas = {std::string(best_isa)};
   };
   return one;
 }
@@ -100,7 +102,7 @@ const std::map<std::string, level>& levels() {
       {"integrator", words(&r::integrators)},
       {"granularity", words(&r::granularities)},
       {"grid", words(&r::grids)},
-      {"isa", with_all(words(&r::isas), &r::isas, isa_names)},
+      {"isa", isas()},
       {"block", words(&r::blocks)},
       {"outside", word(&r::outside)},
       {"dt", number(&r::dt)},

@@ -79,11 +79,12 @@ work_row world::work_of(const point& p, summation& s) {
                   w.pairs_fluid_fluid,
                   w.pairs_fluid_boundary,
                   {}};
-    if (const std::size_t lanes = s.lanes(); lanes > 1) {
+    if (s.block() != no_block) {
+      const std::size_t lanes = s.lanes();
       const std::uint64_t vectors = w.vectors_of(lanes);
       const double room = static_cast<double>(lanes * vectors);
       at->second.vector_units = {s.block(), lanes, vectors,
-                                 room > 0 ? static_cast<double>(w.pairs_evaluated) / room : 0};
+                                 room > 0 ? static_cast<double>(w.fluid_evaluated()) / room : 0};
     }
     if (unfolded_) at->second.pairs_tested_unfolded = s.traits().symmetric ? unfolded_->symmetric : unfolded_->gather;
   }

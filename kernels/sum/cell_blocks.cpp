@@ -1,6 +1,7 @@
 #include "sum/cell_blocks.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <unordered_map>
 
@@ -38,6 +39,7 @@ void cell_blocks<D>::build(const cells<D>& c) {
   if (c.period == period_ && c.fluid_cells + 1 == place_.size() &&
       std::equal(c.place.begin() + 1, end, place_.begin() + 1))
     return;
+  place_.clear();  // until all is done
   const int axes = std::min(shape_.axes, D);
   // On a torus of 2^M cells the blocks must be as wide each, and their colours must alternate all the way round.
   std::int64_t width = shape_.width;
@@ -112,24 +114,51 @@ void cell_blocks<D>::place_in_order(const cells<D>& c) {
     order_[strands_[strand_of_[cell]].next++] = static_cast<std::uint32_t>(cell);
   };
   if (shape_.order == cell_order::bundles && D > 1) {
-    // The cells of a strand along the first axis: a counting sort of all, which keeps the grid's order among equals.
-    std::int64_t most = 0;
-    for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) most = std::max<std::int64_t>(most, c.place[cell][0]);
-    std::vector<std::uint32_t> begin(static_cast<std::size_t>(most) + 2), along(c.fluid_cells);
-    for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) ++begin[static_cast<std::size_t>(c.place[cell][0]) + 1];
-    for (std::size_t x = 1; x < begin.size(); ++x) begin[x] += begin[x - 1];
-    for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell)
-      along[begin[static_cast<std::size_t>(c.place[cell][0])]++] = static_cast<std::uint32_t>(cell);
-    for (const std::uint32_t cell : along) place(cell);
+    for (const std::uint32_t cell : along_first_axis(c)) place(cell);
   } else {
     for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) place(cell);
   }
-  if (shape_.order == cell_order::morton)
+  if (shape_.order == cell_order::morton) {
+    ivec<D> corner = c.fluid_cells > 0 ? c.place[1] : ivec<D>{};
+    for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell)
+      for (int d = 0; d < D; ++d) corner[d] = std::min(corner[d], c.place[cell][d]);
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> coded;
     for (const auto& blocks : begin_)
-      for (std::size_t b = 0; b + 1 < blocks.size(); ++b)
-        std::sort(order_.begin() + blocks[b], order_.begin() + blocks[b + 1], [&](std::uint32_t a, std::uint32_t o) {
-          return morton_code<D>(c.place[a]) < morton_code<D>(c.place[o]);
-        });
+      for (std::size_t b = 0; b + 1 < blocks.size(); ++b) {
+        coded.clear();
+        for (std::uint32_t k = blocks[b]; k < blocks[b + 1]; ++k) {
+          ivec<D> at = c.place[order_[k]];
+          for (int d = 0; d < D; ++d) at[d] -= corner[d];
+          coded.emplace_back(morton_code<D>(at), order_[k]);
+        }
+        std::ranges::sort(coded);
+        for (std::size_t k = 0; k < coded.size(); ++k) order_[blocks[b] + k] = coded[k].second;
+      }
+  }
+}
+
+/// The cells by their first coordinate, among equals as the grid has them.
+template <int D>
+std::vector<std::uint32_t> cell_blocks<D>::along_first_axis(const cells<D>& c) {
+  std::vector<std::uint32_t> along(c.fluid_cells);
+  if (along.empty()) return along;
+  std::int64_t least = c.place[1][0], most = least;
+  for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) {
+    least = std::min<std::int64_t>(least, c.place[cell][0]);
+    most = std::max<std::int64_t>(most, c.place[cell][0]);
+  }
+  if (static_cast<std::uint64_t>(most - least) > 4 * c.fluid_cells) {  // few cells in a wide world
+    std::iota(along.begin(), along.end(), 1);
+    std::ranges::stable_sort(along, {}, [&](std::uint32_t cell) { return c.place[cell][0]; });
+    return along;
+  }
+  std::vector<std::uint32_t> begin(static_cast<std::size_t>(most - least) + 2);
+  const auto slot = [&](std::size_t cell) { return static_cast<std::size_t>(c.place[cell][0] - least); };
+  for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) ++begin[slot(cell) + 1];
+  for (std::size_t x = 1; x < begin.size(); ++x) begin[x] += begin[x - 1];
+  for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell)
+    along[begin[slot(cell)]++] = static_cast<std::uint32_t>(cell);
+  return along;
 }
 
 template class cell_blocks<1>;

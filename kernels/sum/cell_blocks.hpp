@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,7 +10,7 @@
 namespace pairsum {
 
 /// The cells with fluid, in blocks of 2^axes colours: the parities of a block's number along the cut axes. One thread
-/// sums a block with a half stencil, cell by cell in the order of the grid. It touches its own cells and one more on
+/// sums a block with a half stencil, cell by cell in the order asked for. It touches its own cells and one more on
 /// either side:
 ///
 ///     colour 0 |   1   |   0   |   1        a slab:4 of colour 0 writes to cells -1..4,
@@ -31,8 +32,8 @@ class cell_blocks {
   /// a grid that closes on itself.
   void build(const cells<D>& c);
 
-  /// As built: its width fits the grid.
-  block_shape shape() const { return {shape_.axes, width_, false, shape_.order}; }
+  /// As built last: it fits the grid and the dimension.
+  block_shape shape() const { return {std::min(shape_.axes, D), width_, false, shape_.order}; }
   unsigned colours() const { return static_cast<unsigned>(begin_.size()); }
   /// Blocks of a colour.
   std::size_t size(unsigned colour) const { return begin_[colour].size() - 1; }
@@ -53,6 +54,7 @@ class cell_blocks {
 
   void find_strands(const cells<D>& c, int axes);
   void place_in_order(const cells<D>& c);
+  static std::vector<std::uint32_t> along_first_axis(const cells<D>& c);
 
   block_shape shape_;
   bool one_pass_ = false;

@@ -22,8 +22,10 @@ struct work_counts {
   std::uint64_t vectors_of(std::size_t lanes) const {
     for (std::size_t k = 0; k < vectors.size(); ++k)
       if (std::size_t{2} << k == lanes) return vectors[k];
-    return pairs_evaluated;
+    return fluid_evaluated();
   }
+  /// Times the formula was evaluated for two fluid particles.
+  std::uint64_t fluid_evaluated() const { return pairs_evaluated - pairs_fluid_boundary; }
 };
 
 /// Distance tests on a grid without folded cells: by the gather (each fluid pair twice) and by symmetric sums.

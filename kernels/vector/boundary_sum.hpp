@@ -40,7 +40,11 @@ HWY_INLINE void add_boundary_lanes(const tile_problem<I>& t, std::uint32_t i, co
                 [&](T& v, int s) HWY_ATTR { v = T(hn::GatherIndex(d, p.boundary.template column_as<real>(s), from)); });
     const T r2 = norm2<D, T>(r);
     auto in = hn::Lt(r2.v, hn::Set(d, p.boundary_reach2));
-    if (t.in_reach != nullptr) in = decide_near_ties(t, in, r2.v, p.boundary_reach2, i, b + k);
+    if (t.in_reach != nullptr) {
+      std::uint32_t other[N];
+      hn::StoreU(hit, dn, other);
+      in = decide_near_ties(t, in, r2.v, p.boundary_reach2, i, other);
+    }
     if (n - k < N) in = hn::And(in, hn::FirstN(d, n - k));
     const auto rates = p.formula->boundary(r, r2, one, wall);
     each_scalar(rates, [&](const T& v, int s) HWY_ATTR { u[s] = hn::Add(u[s], hn::IfThenElseZero(in, v.v)); });

@@ -25,10 +25,11 @@ class alignas(4096) nearby {
   using places = std::array<const std::int32_t*, static_cast<std::size_t>(D)>;
   static constexpr std::size_t capacity = 1104;
 
-  /// Starts over, around particle i, for a reach in units of the problem's, at most 1.
-  void clear(const places& place, std::uint32_t i, float reach) {
+  /// Starts over, around particle i, for a reach in units of the problem's, at most 1, and places of which rounding
+  /// moves the square of a distance by up to `excess`.
+  void clear(const places& place, std::uint32_t i, float reach, float excess) {
     for (int c = 0; c < D; ++c) origin_[c] = place[c][i];
-    limit_ = (reach * reach + excess) * unit * unit;
+    limit_ = (reach * reach + rounding + excess) * unit * unit;
     n_ = 0;
   }
   std::size_t size() const { return n_; }
@@ -109,10 +110,10 @@ class alignas(4096) nearby {
   /// How far from the origin a particle may be, per component, in units of the reach. Then those in its reach are less
   /// than 5 away, less than 2^23 places, which float holds exactly.
   static constexpr float near = 4, unit = places_per_reach;
-  /// What the limit is wider than the reach's square, in its units. With u = 2^-24: |x_i|^2 <= 48, |x_j|^2 <= 63, and
-  /// the sum rounds up to seven times at most 111 u without fused operations; rounding to places moves a component of
-  /// x_i - x_j by up to 2^-20 (a little more if the world is 10^9 reaches wide), the square of its length by 4e-6.
-  static constexpr float excess = 5e-5f;
+  /// What the limit is wider than the reach's square, in its units, for the roundings of the test. With u = 2^-24:
+  /// |x_i|^2 <= 48, |x_j|^2 <= 63; without fused operations the sum rounds up to seven times at most 111 u (4.7e-5),
+  /// the limit and the test in the working precision, which decides, a few times 49 u at most.
+  static constexpr float rounding = 7e-5f;
 
   // The columns of a cell with its neighbours (some 100 candidates) lie at different places of a page: a load whose
   // address differs from a recent store's by a multiple of 4096 waits for it.

@@ -33,8 +33,8 @@ inline constexpr bool takes_lanes =
     made_of<particle_of<I>, typename I::real>() && made_of<boundary_particle_of<I>, typename I::real>() &&
     made_of<rates_of<I>, typename I::real>();
 
-/// Places are whole numbers, so many to a reach: one for 32 bits of a particle's distance to any other, taken modulo
-/// 2^32, where differences of particles that are near each other are exact.
+/// Places are whole numbers modulo 2^32, so many to a reach: differences of particles less than 2048 reaches apart are
+/// exact.
 inline constexpr std::int32_t places_per_reach = 1 << 20;
 /// Columns of places can be read so far behind their end.
 inline constexpr std::size_t place_room = 32;
@@ -51,7 +51,8 @@ struct tile_problem {
 
   const problem<I>* p;
   std::array<const std::int32_t*, I::dim> place;  ///< [particle]; rounded to the nearest
-  real* rows;                                     ///< [particle][stride], on 64-byte boundaries
+  float excess;  ///< how far, in units of the reach squared, rounding to places can move |x_i - x_j|^2
+  real* rows;    ///< [particle][stride], on 64-byte boundaries
   /// Decides r^2 < reach2 for particles i and j as scalar code does; nullptr if lanes round alike. One of the two may
   /// fuse products and sums (see fused()) and the other not, which matters for pairs within rounding of the reach.
   bool (*in_reach)(const problem<I>& p, std::uint32_t i, std::uint32_t j, real reach2);

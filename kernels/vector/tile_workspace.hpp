@@ -37,6 +37,7 @@ class tile_workspace {
                                     : block_shape::parse(s.block),
                   !symmetric);
     check_isa(s.isa);
+    excess_ = excess_in(s);
     if constexpr (takes_lanes<I>) {
       const auto kernels = vector_kernels<I>();
       for (const tile_kernels<I>& k : kernels)
@@ -96,7 +97,7 @@ class tile_workspace {
     if (kernel_) {
       std::array<const std::int32_t*, I::dim> place;
       for (int d = 0; d < I::dim; ++d) place[d] = place_[d].data();
-      const tiles view{&p, place, rows_.data(), rounds_alike_ ? nullptr : &in_reach};
+      const tiles view{&p, place, excess_, rows_.data(), rounds_alike_ ? nullptr : &in_reach};
       kernel_(view, cell.data(), cell.size(),
               static_cast<std::uint32_t>(p.fluid_count + spare_rows * static_cast<std::size_t>(thread)));
     } else {
@@ -131,7 +132,7 @@ class tile_workspace {
 
   /// Bytes of a cell's particles, at the talk's spacing of H/2.
   static std::size_t bytes_per_cell(int dim) {
-    return (std::size_t{1} << dim) * (tiles::stride + I::dim) * sizeof(real);
+    return (std::size_t{1} << dim) * (tiles::stride * sizeof(real) + I::dim * sizeof(std::int32_t));
   }
 
   void fill(const problem<I>& p, std::size_t i) {
@@ -142,8 +143,18 @@ class tile_workspace {
     each_scalar(p.formula->derive(state), [&](const real& a, int k) { row[I::dim + k] = a; });
   }
 
+  /// Rounding to places moves a component of x_i - x_j by up to one of them, and by what doubles cannot hold of it in a
+  /// world as wide as Omega.
+  static float excess_in(const setup& s) {
+    double widest = 0;
+    for (std::size_t d = 0; d < s.omega_low.size(); ++d) widest = std::max(widest, s.omega_high[d] - s.omega_low[d]);
+    const double component = 1.0 / places_per_reach + widest / s.constants.H * 0x1p-51;  // in units of the reach
+    return static_cast<float>(2 * std::sqrt(3.0) * component + 3 * component * component);
+  }
+
   /// From the first particle, so that a world far from 0 keeps its digits.
   void fill_places(const problem<I>& p, std::size_t begin, std::size_t end) {
+    if (begin == end) return;
     const double scale = places_per_reach / std::sqrt(static_cast<double>(p.reach2));
     for (int d = 0; d < I::dim; ++d) {
       const real* const x = p.x.column[d];
@@ -177,6 +188,7 @@ class tile_workspace {
   cell_blocks<I::dim> blocks_;
   tile_function<I> kernel_ = nullptr;
   std::size_t lanes_ = 1;
+  float excess_ = 0;
   bool rounds_alike_ = true;
   int threads_ = 0;
 };

@@ -69,6 +69,28 @@ TEST_F(run_test, work_says_how_many_tests_folding_adds) {
   EXPECT_EQ(symmetric.size(), 1u) << "the same whatever M";
 }
 
+TEST_F(run_test, rows_of_vector_backends_say_how_full_their_vectors_were) {
+  const auto path = folder_ / "rows.jsonl";
+  run_request r = small();
+  r.backends = {"naive", "tiles_omp", "naive_tiles_omp"};
+  ASSERT_EQ(run(r, path), 0);
+  std::size_t seen = 0;
+  for (const sample& s : read_rows(path).samples) {
+    if (!s.work) continue;
+    ASSERT_EQ(s.work->vector_units.has_value(), s.point.backend != "naive");
+    if (!s.work->vector_units) continue;
+    ++seen;
+    const vector_use& v = *s.work->vector_units;
+    const double sides = s.point.backend == "tiles_omp" ? 1 : 2;
+    EXPECT_GT(s.work->pairs_fluid_boundary, 0u);
+    EXPECT_EQ(v.occupancy,
+              sides * static_cast<double>(s.work->pairs_fluid_fluid) / static_cast<double>(v.lanes * v.vectors));
+    EXPECT_LE(v.occupancy, 1);
+    EXPECT_NE(v.block, "auto");
+  }
+  EXPECT_GT(seen, 0u);
+}
+
 TEST_F(run_test, a_second_run_into_the_same_file_is_the_next_round) {
   const auto path = folder_ / "rows.jsonl";
   run_request r = small();

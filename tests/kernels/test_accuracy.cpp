@@ -129,8 +129,10 @@ TEST(accuracy, the_documented_table_is_what_is_measured) {
     const std::array<double, 4> measured{d.error, f.error, d.from_naive, f.from_naive};
     EXPECT_LT(d.error, 1e-13);
     EXPECT_LT(f.error, 1e-4);
-    const bool derives_itself = registry::instance().find_backend(backend).traits.vector;  // in code that fuses elsewhere
-    EXPECT_LT(d.from_naive, derives_itself ? 1e-14 : 1e-15) << "differs from naive by more than the order of its additions";
+    const bool derives_itself =
+        registry::instance().find_backend(backend).traits.vector;  // in code that fuses elsewhere
+    EXPECT_LT(d.from_naive, derives_itself ? 1e-14 : 1e-15)
+        << "differs from naive by more than the order of its additions";
     EXPECT_LT(f.from_naive, 1e-6);
     table << "| `" << backend << "` |";
     for (const double a : measured) table << " " << a << " |";

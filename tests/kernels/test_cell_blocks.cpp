@@ -151,6 +151,40 @@ TEST(cell_blocks, follow_cells_that_move) {
   c.place[2] = ivec<3>(0, 0, 1);
   blocks.build(c);
   EXPECT_EQ(blocks.size(0), 1u);
+  c.period = 6;  // 3 blocks go round, which two colours cannot
+  EXPECT_TRUE(says(error_of([&] { blocks.build(c); }), {"do not go round a torus of 6 cells"}));
+  blocks.shape({1, 2}, true);
+  blocks.build(c);
+  EXPECT_EQ(blocks.colours(), 1u);
+}
+
+/// The order along an axis takes no memory for the cells between.
+TEST(cell_blocks, few_cells_of_a_wide_world) {
+  cells<3> c;
+  c.fluid_cells = 3;
+  c.resize_fluid();
+  c.place[1] = ivec<3>(std::int64_t{1} << 50, 0, 0);
+  c.place[2] = ivec<3>(7, 1, 0);
+  c.place[3] = ivec<3>(7, 1, 1);
+  for (const cell_order order : {cell_order::bundles, cell_order::morton}) {
+    cell_blocks<3> blocks;
+    blocks.shape({1, 2, false, order});
+    blocks.build(c);
+    ASSERT_EQ(blocks.size(0), 1u);
+    const auto visited = blocks(0, 0);
+    EXPECT_EQ(std::vector<std::uint32_t>(visited.begin(), visited.end()), (std::vector<std::uint32_t>{2, 3, 1}));
+  }
+}
+
+TEST(cell_blocks, say_what_was_made) {
+  cells<1> c;
+  c.fluid_cells = 1;
+  c.resize_fluid();
+  c.place[1] = ivec<1>(0);
+  cell_blocks<1> blocks;
+  blocks.shape({3, 4, true});
+  blocks.build(c);
+  EXPECT_EQ(blocks.shape().word(), "slab:4");
 }
 
 TEST(block_shape, is_read) {

@@ -94,6 +94,39 @@ TEST_P(tiles_test, particles_whose_places_coincide_do_not_meet) {
   }
 }
 
+/// The wider the world, the coarser are numbers far from its first particle: pairs just inside the reach are found.
+TEST_P(tiles_test, pairs_are_found_in_wide_worlds) {
+  scene s = make_scene("dam_break", 0.06, "perturbed");
+  const double H = s.world.constants.H;
+  const counter_random random(7);
+  for (const double width : {1e8, 1e11, 1e13}) {
+    particle_table pairs;
+    pairs.resize(401);
+    for (std::uint32_t k = 0; k < 401; ++k) {
+      vec<3, double> x(0.4 * H, 0.4 * H, 0.4 * H);
+      for (std::uint32_t d = 0; d < 3 && k > 0; ++d) x[d] = width * H * random.uniform(8 * ((k + 1) / 2) + d, 0.1, 0.9);
+      if (k > 0 && k % 2 == 0) {
+        vec<3, double> r;
+        for (std::uint32_t d = 0; d < 3; ++d) r[d] = random.uniform(8 * ((k + 1) / 2) + 3 + d, -1, 1);
+        x += 0.99997 * H / r.norm() * r;
+      }
+      for (std::size_t d = 0; d < 3; ++d) {
+        pairs.x[d][k] = x[static_cast<int>(d)];
+        pairs.v[d][k] = random.uniform(8 * k + 7, -1, 1);
+      }
+      pairs.rho[k] = s.particles.rho[0];
+      pairs.m[k] = s.particles.m[0];
+      pairs.kind[k] = particle_kind::fluid;
+    }
+    s.world.omega_low.assign(3, 0);
+    s.world.omega_high.assign(3, width * H);
+    const setup world = with(s.world, GetParam(), grid_choice("compact_grid", 0));
+    const auto expected = registry::instance().make_reference(world)->brute_force(pairs, some_threads());
+    EXPECT_GT(expected.pairs_fluid_fluid, 100u);
+    EXPECT_EQ(disagreement(evaluated(world, pairs)->rates(), expected), "") << width;
+  }
+}
+
 /// On a lattice of H/2 many pairs are as far apart as H but for rounding: every set takes and leaves the same ones.
 TEST_P(tiles_test, pairs_at_the_reach_are_decided_alike) {
   scene s = make_scene("lattice", 0.1, "rest");
