@@ -116,7 +116,7 @@ TEST(cell_blocks, cells_are_visited_in_the_order_asked_for) {
   cells<3> c;
   c.fluid_cells = 64;
   c.resize_fluid();
-  for (int k = 0; k < 64; ++k) c.place[static_cast<std::size_t>(k) + 1] = ivec<3>(k % 4, k / 4 % 4, k / 16);
+  for (int k = 0; k < 64; ++k) c.place[static_cast<std::size_t>(k) + 1] = ivec<3>{k % 4, k / 4 % 4, k / 16};
   cell_blocks<3> blocks;
   using at = std::array<int, 3>;
   const auto first = [&](cell_order order) {
@@ -142,13 +142,13 @@ TEST(cell_blocks, follow_cells_that_move) {
   cells<3> c;
   c.fluid_cells = 2;
   c.resize_fluid();
-  c.place[1] = ivec<3>(0, 0, 0);
-  c.place[2] = ivec<3>(0, 0, 9);
+  c.place[1] = ivec<3>{0, 0, 0};
+  c.place[2] = ivec<3>{0, 0, 9};
   cell_blocks<3> blocks;
   blocks.shape({1, 2});
   blocks.build(c);
   EXPECT_EQ(blocks.size(0), 2u);
-  c.place[2] = ivec<3>(0, 0, 1);
+  c.place[2] = ivec<3>{0, 0, 1};
   blocks.build(c);
   EXPECT_EQ(blocks.size(0), 1u);
   c.period = 6;  // 3 blocks go round, which two colours cannot
@@ -163,9 +163,9 @@ TEST(cell_blocks, few_cells_of_a_wide_world) {
   cells<3> c;
   c.fluid_cells = 3;
   c.resize_fluid();
-  c.place[1] = ivec<3>(std::int64_t{1} << 50, 0, 0);
-  c.place[2] = ivec<3>(7, 1, 0);
-  c.place[3] = ivec<3>(7, 1, 1);
+  c.place[1] = ivec<3>{std::int64_t{1} << 50, 0, 0};
+  c.place[2] = ivec<3>{7, 1, 0};
+  c.place[3] = ivec<3>{7, 1, 1};
   for (const cell_order order : {cell_order::bundles, cell_order::morton}) {
     cell_blocks<3> blocks;
     blocks.shape({1, 2, false, order});
@@ -180,7 +180,7 @@ TEST(cell_blocks, say_what_was_made) {
   cells<1> c;
   c.fluid_cells = 1;
   c.resize_fluid();
-  c.place[1] = ivec<1>(0);
+  c.place[1] = ivec<1>{0};
   cell_blocks<1> blocks;
   blocks.shape({3, 4, true});
   blocks.build(c);
