@@ -195,7 +195,10 @@ TEST(row, messages_say_what_is_right_and_what_is_there) {
 TEST(row, unknown_keys_are_named) {
   EXPECT_EQ(rejection(example::measured(), [](json& j) { j["note"] = 1; }),
             "key \"note\" is not known in this kind of row");
-  EXPECT_EQ(rejection(example::measured(), [](json& j) { j["work"]["vector_units"] = {{"lanes", 8}}; }),
+  EXPECT_EQ(rejection(example::measured(),
+                      [](json& j) {
+                        j["work"]["vector_units"] = {{"lanes", 8}};
+                      }),
             "key \"work.vector_units.block\" is missing");
   EXPECT_EQ(rejection(example::measured(), [](json& j) { j["work"]["pairs"] = 1; }),
             "key \"work.pairs\" is not known in this kind of row");
