@@ -186,7 +186,8 @@ std::size_t triad_array_bytes(std::uint64_t last_level_cache_bytes) {
 
 peak_rates measure_peaks(const std::string& precision, const team& t, const peak_limits& limits) {
   if (t.kind() == runtime::tbb) throw error("peaks are measured on a serial or an OpenMP team, not on oneTBB's");
-  check_word("precision", precision, std::vector<std::string_view>{precision_name<double>(), precision_name<float>()});
+  check_word("precision", precision,
+             std::vector<std::string_view>{precision_name<double>(), precision_name<float>(), mixed_precision});
   return precision == precision_name<double>() ? measure<double>(t.threads(), limits)
                                                : measure<float>(t.threads(), limits);
 }

@@ -23,10 +23,10 @@ struct peak_limits {
 /// Bytes of each of the three arrays: 4 times the cache, and no more than 256 MiB (which it is for an unknown cache).
 std::size_t triad_array_bytes(std::uint64_t last_level_cache_bytes);
 
-/// The best of several runs in "double" or "float" on the threads of `t`, a serial or an OpenMP team as worker_team
-/// makes it; all start at once, and the last one's end counts. A triad's element moves 3 numbers: 24 bytes in double,
-/// 12 in float; that the cache line of `a` may be read before it is written is not counted. Memory is first touched by
-/// the thread that uses it, asks for large pages, and is given back.
+/// The best of several runs in "double", "float" or "mixed" (whose pairs are of float) on the threads of `t`, a serial
+/// or an OpenMP team as worker_team makes it; all start at once, and the last one's end counts. A triad's element moves
+/// 3 numbers: 24 bytes in double, 12 in float; that the cache line of `a` may be read before it is written is not
+/// counted. Memory is first touched by the thread that uses it, asks for large pages, and is given back.
 peak_rates measure_peaks(const std::string& precision, const team& t, const peak_limits& limits = {});
 
 namespace peak_loops {

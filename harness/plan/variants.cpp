@@ -75,16 +75,23 @@ std::vector<std::string> built_backends(const run_request& r, const point& world
 }
 
 void check_built(const run_request& r, const registry& all) {
-  point world;
+  const auto is_built = [&](const std::string& precision, const std::string& interaction) {
+    point world;
+    world.precision = precision;
+    world.interaction = interaction;
+    world.smoothing = all.is_smoothed(interaction) ? r.smoothings.front() : std::string(no_smoothing);
+    return !built_backends(r, world, all).empty();
+  };
+  const auto refuse = [&](const auto& interactions, const auto& precisions) {
+    throw error(fmt::format("none of the backends {} is built for {} in {}D and precision {}", join(r.backends),
+                            interactions, r.dim, precisions));
+  };
   for (const std::string& precision : r.precisions)
-    for (const std::string& interaction : r.interactions) {
-      world.precision = precision;
-      world.interaction = interaction;
-      world.smoothing = all.is_smoothed(interaction) ? r.smoothings.front() : std::string(no_smoothing);
-      if (built_backends(r, world, all).empty())
-        throw error(fmt::format("none of the backends {} is built for {} in {}D and precision {}", join(r.backends),
-                                interaction, r.dim, precision));
-    }
+    if (std::ranges::none_of(r.interactions, [&](const auto& i) { return is_built(precision, i); }))
+      refuse(join(r.interactions), precision);
+  for (const std::string& interaction : r.interactions)
+    if (std::ranges::none_of(r.precisions, [&](const auto& p) { return is_built(p, interaction); }))
+      refuse(interaction, join(r.precisions));
 }
 
 }  // namespace pairsum::harness

@@ -30,7 +30,8 @@ std::vector<backend_way> ways_of(const run_request& r, const std::vector<std::st
 /// backend that is unknown or unavailable.
 std::vector<std::string> built_backends(const run_request& r, const point& world, const registry& all);
 
-/// Throws pairsum::error for a precision with a formula that none of the request's backends was built for.
+/// Throws pairsum::error for a precision that none of the request's backends was built for with any of its
+/// interactions, or an interaction with any of its precisions; combinations that were not built are left out.
 void check_built(const run_request& r, const registry& all);
 
 }  // namespace pairsum::harness

@@ -15,4 +15,7 @@ constexpr std::string_view precision_name<float>() {
   return "float";
 }
 
+/// The name of what is neither: state and sums in double, pairs in float (sum/mixed.hpp).
+inline constexpr std::string_view mixed_precision = "mixed";
+
 }  // namespace pairsum

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/names.hpp"
+#include "sum/mixed.hpp"
 
 namespace pairsum {
 namespace {
@@ -24,7 +25,8 @@ struct precision_range {
   double low, high, largest;
 };
 precision_range range_of(const std::string& precision) {
-  if (precision == "float") return {1e-32, 1e32, std::numeric_limits<float>::max()};
+  if (precision == precision_name<float>()) return {1e-32, 1e32, std::numeric_limits<float>::max()};
+  if (precision == mixed_precision) return {1e-32, 1e32, std::numeric_limits<double>::max()};
   return {1e-300, 1e300, std::numeric_limits<double>::max()};
 }
 
@@ -56,24 +58,25 @@ void check_input(const particle_table& p, const setup& s) {
     throw error("the particles are " + std::to_string(p.dim) + "D, the summation is " + std::to_string(s.dim) + "D");
   check_world(s);
   if (p.size() >= (std::size_t{1} << 32) - 1024) throw error("at most 2^32 - 1025 particles can be summed");
-  const bool single = s.precision == "float";
+  const bool single = s.precision != precision_name<double>();  // what a pair's terms are made of must fit
+  const bool single_position = s.precision == precision_name<float>();
   std::size_t outside = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto rounded = [&](double a) { return single ? static_cast<double>(static_cast<float>(a)) : a; };
-    const auto finite = [&](double a, const char* what) {
-      if (!std::isfinite(rounded(a)))
+    const auto finite = [&](double a, const char* what, bool in_float) {
+      if (!std::isfinite(in_float ? static_cast<double>(static_cast<float>(a)) : a))
         throw error("particle " + std::to_string(i) + " has a " + what + " that is not finite" +
-                    (single ? " in float" : "") + " (" + text(a) + ")");
+                    (in_float ? " in float" : "") + " (" + text(a) + ")");
     };
     const auto positive = [&](double a, const char* what) {
-      finite(a, what);
+      finite(a, what, single);
       if (!(rounded(a) > 0))
         throw error("particle " + std::to_string(i) + " has a " + what + " of " + text(a) + ", which must be positive" +
                     (single ? " in float" : ""));
     };
     for (int d = 0; d < p.dim; ++d) {
-      finite(p.x[d][i], "position");
-      finite(p.v[d][i], "velocity");
+      finite(p.x[d][i], "position", single_position);
+      finite(p.v[d][i], "velocity", single);
     }
     positive(p.rho[i], "density");
     positive(p.m[i], "mass");

@@ -1,6 +1,7 @@
 #pragma once
 #include "sum/costs.hpp"
 #include "sum/flop_count.hpp"
+#include "sum/mixed.hpp"
 
 namespace pairsum {
 namespace costs_detail {
@@ -73,15 +74,15 @@ pair_flops count_flops(const I& formula) {
 template <class I>
 formula_costs costs_of(const I& formula) {
   using namespace costs_detail;
-  constexpr int place = I::dim * static_cast<int>(sizeof(typename I::real));
+  constexpr int real = sizeof(typename I::real), value = sizeof(pair_real<I>);
   formula_costs c;
   c.dim = I::dim;
   c.distance_test = distance_test_flops(I::dim);
   c.counted = count_flops(formula);
   if constexpr (requires { I::flops; }) c.declared = I::flops;
   c.boundary_reach = boundary_reach<I>();
-  c.fluid_bytes = place + bytes_of<particle_of<I>>();
-  c.boundary_bytes = place + bytes_of<boundary_particle_of<I>>();
+  c.fluid_bytes = I::dim * value + bytes_of<particle_of<I>>() / (real / value);
+  c.boundary_bytes = I::dim * real + bytes_of<boundary_particle_of<I>>();
   c.rates_bytes = bytes_of<rates_of<I>>();
   return c;
 }

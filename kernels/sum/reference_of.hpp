@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "sum/costs_of.hpp"
+#include "sum/mixed.hpp"
 #include "sum/rate_names.hpp"
 #include "sum/reference.hpp"
 #include "sum/running_error.hpp"
@@ -19,7 +20,8 @@ namespace pairsum {
 template <class I>
 class reference_of final : public reference {
   using R = typename I::real;
-  using tracked = running_error<R>;
+  using tracked = running_error<R, pair_real<I>>;  ///< in a pair
+  using derived_value = running_error<R>;          ///< in what a particle brings to it
   static constexpr int D = I::dim;
   using rates = typename I::template rates<tracked>;
   static constexpr int slots = field_count<rates>;
@@ -61,10 +63,11 @@ class reference_of final : public reference {
       }
       if (!derive_all) return;
       derived.resize(t.size());
-      for (const std::uint32_t i : fluid) derived[i] = f.formula_.derive(state(i));
+      for (const std::uint32_t i : fluid) derived[i] = derive(i);
     }
-    particle_state<D, tracked> state(std::uint32_t i) const {
-      particle_state<D, tracked> s;
+    template <class T>
+    particle_state<D, T> state(std::uint32_t i) const {
+      particle_state<D, T> s;
       for (int d = 0; d < D; ++d) {
         s.x[d] = x[i][d];
         s.v[d] = static_cast<R>(table.v[d][i]);
@@ -75,9 +78,21 @@ class reference_of final : public reference {
       return s;
     }
     typename I::template particle<tracked> particle(std::uint32_t i) const {
-      return derived.empty() ? f.formula_.derive(state(i)) : derived[i];
+      return derived.empty() ? derive(i) : derived[i];
     }
-    auto boundary(std::uint32_t i) const { return f.formula_.derive_boundary(state(i)); }
+    auto boundary(std::uint32_t i) const { return f.formula_.derive_boundary(state<tracked>(i)); }
+    typename I::template particle<tracked> derive(std::uint32_t i) const {
+      if constexpr (is_mixed<I>) {
+        std::array<tracked, field_count<typename I::template particle<tracked>>> rounded;
+        each_scalar(f.formula_.derive(state<derived_value>(i)),
+                    [&](const derived_value& a, int k) { rounded[k] = tracked(a.v, a.e + tracked::rounded(a.v)); });
+        typename I::template particle<tracked> brings;
+        each_scalar(brings, [&](tracked& a, int k) { a = rounded[k]; });
+        return brings;
+      } else {
+        return f.formula_.derive(state<tracked>(i));
+      }
+    }
   };
 
   /// Particles sorted by an own cell number; a row of three cells is one range.
@@ -159,8 +174,8 @@ class reference_of final : public reference {
           const R r2 = norm2<D, R>(r);
           if (!(r2 < H_ * H_)) return;
           vec<D, tracked> rt;
-          for (int d = 0; d < D; ++d) rt[d] = tracked(r[d], tracked::rounded(r[d]));
-          const tracked r2t(r2, (D + 2) * tracked::rounded(r2));
+          for (int d = 0; d < D; ++d) rt[d] = tracked(r[d], error_of_component(r[d]));
+          const tracked r2t(r2, error_of_square(r, r2));
           if (w.kind[j] == particle_kind::boundary) {
             ++walls;
             if constexpr (has_boundary<I>)
@@ -188,6 +203,22 @@ class reference_of final : public reference {
     out.pairs_fluid_fluid = fluid_sides / 2;
     out.pairs_fluid_boundary = boundary_pairs;
     return out;
+  }
+
+  /// How far x_i - x_j of a backend may be from ours. A mixed one rounds either position to a place, then the number
+  /// of places, what a place is in m, and their product.
+  double error_of_component(R r) const {
+    if constexpr (is_mixed<I>)
+      return 3.01 * tracked::rounded(r) + static_cast<double>(H_) * (1 / mixed_places_per_reach);
+    else
+      return tracked::rounded(r);
+  }
+  double error_of_square(const vec<D, R>& r, R r2) const {
+    double error = (D + 2) * tracked::rounded(r2);
+    if constexpr (is_mixed<I>)
+      for (int d = 0; d < D; ++d)
+        error += 2.01 * std::abs(r[d]) * error_of_component(r[d]) + std::pow(error_of_component(r[d]), 2);
+    return error;
   }
 
   /// Are the rates whole numbers, which have no rounding?

@@ -10,24 +10,25 @@ namespace pairsum {
 /// A value of working precision R with a bound on how far any evaluation of the same expression in R can be from the
 /// exact result: running error analysis (Wilkinson; Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed.,
 /// sec. 3.3). A fused multiply-add rounds less often than the bound assumes, so the bound holds with and without
-/// contraction.
-template <class R>
+/// contraction. With a unit U coarser than R the bound is for an evaluation in U of inputs that are rounded to U.
+template <class R, class U = R>
 struct running_error {
   R v = 0;
   double e = 0;
 
   running_error() = default;
-  running_error(R value) : v(value) {}  // NOLINT: exact inputs convert
+  running_error(R value)  // NOLINT: inputs convert
+      : v(value), e(static_cast<R>(static_cast<U>(value)) == value ? 0 : rounded(value)) {}
   running_error(R value, double bound) : v(value), e(bound) {}
   template <class N>
   requires(std::is_arithmetic_v<N> && !std::is_same_v<N, R>) explicit(false) running_error(N value)
-      : v(static_cast<R>(value)) {}
+      : running_error(static_cast<R>(value)) {}
 
   static double rounded(R value) {
-    return 0.5 * static_cast<double>(std::numeric_limits<R>::epsilon()) * std::abs(static_cast<double>(value));
+    return 0.5 * static_cast<double>(std::numeric_limits<U>::epsilon()) * std::abs(static_cast<double>(value));
   }
   /// What a product or quotient can lose below the smallest normal number.
-  static constexpr double underflow = static_cast<double>(std::numeric_limits<R>::denorm_min());
+  static constexpr double underflow = static_cast<double>(std::numeric_limits<U>::denorm_min());
   double size() const { return std::abs(static_cast<double>(v)); }
 
   friend running_error operator+(const running_error& a, const running_error& b) {
@@ -80,9 +81,9 @@ struct running_error {
 }  // namespace pairsum
 
 namespace Eigen {
-template <class R>
-struct NumTraits<pairsum::running_error<R>> : NumTraits<R> {
-  using Real = pairsum::running_error<R>;
+template <class R, class U>
+struct NumTraits<pairsum::running_error<R, U>> : NumTraits<R> {
+  using Real = pairsum::running_error<R, U>;
   using NonInteger = Real;
   using Nested = Real;
   using Literal = R;

@@ -13,7 +13,7 @@ HWY_INLINE hn::Vec<T> as_lanes(T d, N numbers) {
 }
 
 /// u += what boundary particles b[0 .. n) within reach do to fluid particle i; a whole vector can be read from every b.
-/// These pairs are few, so their particles are gathered from their columns.
+/// These pairs are few, so their particles are gathered from their columns, and always summed in I's own precision.
 template <class I, class V>
 HWY_INLINE void add_boundary_lanes(const tile_problem<I>& t, std::uint32_t i, const std::uint32_t* b, std::size_t n,
                                    V (&u)[tile_problem<I>::rates]) {
@@ -26,7 +26,7 @@ HWY_INLINE void add_boundary_lanes(const tile_problem<I>& t, std::uint32_t i, co
   const lane_tag<real> d;
   const hn::RebindToSigned<lane_tag<real>> di;
   const hn::Rebind<std::uint32_t, lane_tag<real>> dn;
-  const real* const row = t.rows + i * tile_problem<I>::stride;
+  const pair_real<I>* const row = t.row(i);
   const auto one = particle_at<I, T>(row);
   for (std::size_t k = 0; k < n; k += N) {
     // Behind the last hit the first stands in, out of reach.
@@ -34,7 +34,10 @@ HWY_INLINE void add_boundary_lanes(const tile_problem<I>& t, std::uint32_t i, co
     const auto place = as_lanes(di, hit);
     const auto from = hn::Sub(place, hn::Set(di, static_cast<whole>(p.fluid_count)));
     vec<D, T> r;
-    for (int c = 0; c < D; ++c) r[c] = T(row[c]) - T(hn::GatherIndex(d, p.x.column[c], place));
+    for (int c = 0; c < D; ++c) {
+      const real x_i = is_mixed<I> ? p.x.column[c][i] : static_cast<real>(row[c]);
+      r[c] = T(x_i) - T(hn::GatherIndex(d, p.x.column[c], place));
+    }
     typename I::template boundary_particle<T> wall;
     each_scalar(wall,
                 [&](T& v, int s) HWY_ATTR { v = T(hn::GatherIndex(d, p.boundary.template column_as<real>(s), from)); });

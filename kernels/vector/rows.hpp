@@ -27,13 +27,31 @@ HWY_INLINE hn::Vec<D> load(D d, const R* from, std::size_t stride, const std::ui
   }
 }
 
+/// values += v, in the precision of the values.
+template <class D, class R>
+HWY_INLINE void add_piece(D d, hn::Vec<D> v, R* values) {
+  constexpr std::size_t n = hn::MaxLanes(D());
+  if constexpr (std::is_same_v<R, hn::TFromD<D>>) {
+    hn::StoreU(hn::Add(hn::LoadU(d, values), v), d, values);
+  } else if constexpr (n <= lane_count<R>) {
+    const hn::Rebind<R, D> wide;
+    hn::StoreU(hn::Add(hn::LoadU(wide, values), hn::PromoteTo(wide, v)), wide, values);
+  } else {
+    const hn::Half<D> half;
+    add_piece(half, hn::LowerHalf(half, v), values);
+    add_piece(half, hn::UpperHalf(half, v), values + n / 2);
+  }
+}
+
 /// Adds piece k of v to the piece at `to` of row index[k * piece].
 template <class D, class R>
 HWY_INLINE void add(D d, hn::Vec<D> v, R* to, std::size_t stride, const std::uint32_t* index) {
   constexpr std::size_t n = hn::MaxLanes(D());
-  if constexpr (n == piece<R>) {
-    R* const row = to + index[0] * stride;
-    hn::StoreU(hn::Add(hn::LoadU(d, row), v), d, row);
+  if constexpr (n == piece<hn::TFromD<D>>) {
+    add_piece(d, v, to + index[0] * stride);
+  } else if constexpr (!std::is_same_v<R, hn::TFromD<D>> && n <= lane_count<R>) {
+    const hn::Rebind<R, D> wide;  // one conversion for several rows
+    add(wide, hn::PromoteTo(wide, v), to, stride, index);
   } else {
     const hn::Half<D> half;
     add(half, hn::LowerHalf(half, v), to, stride, index);
@@ -119,9 +137,10 @@ HWY_INLINE void load_rows(const R* rows, std::size_t stride, const std::uint32_t
   }
 }
 
-/// Adds lane l of values[k] to value k of row index[l], one row after the other, so that a row may be there twice.
-template <std::size_t n, class R>
-HWY_INLINE void add_to_rows(R* rows, std::size_t stride, const std::uint32_t* index,
+/// Adds lane l of values[k] to value k of row index[l], one row after the other, so that a row may be there twice. Rows
+/// may be of a wider type than the lanes.
+template <class R, std::size_t n, class W>
+HWY_INLINE void add_to_rows(W* rows, std::size_t stride, const std::uint32_t* index,
                             const lane_vector<R> (&values)[n]) {
   constexpr std::size_t P = rows_detail::piece<R>;
   const lane_tag<R> d;
@@ -130,6 +149,18 @@ HWY_INLINE void add_to_rows(R* rows, std::size_t stride, const std::uint32_t* in
     for (std::size_t b = 0; b < P; ++b) v[b] = first + b < n ? values[first + b] : hn::Zero(d);
     rows_detail::transpose(v);
     for (std::size_t r = 0; r < P; ++r) rows_detail::add(d, v[r], rows + first, stride, index + r);
+  }
+}
+
+/// v in lanes of R, which may be twice as wide as its own: then the sum of its halves.
+template <class R, class V>
+HWY_INLINE lane_vector<R> widened(V v) {
+  if constexpr (std::is_same_v<R, hn::TFromV<V>>) {
+    return v;
+  } else {
+    const lane_tag<R> wide;
+    const hn::Half<hn::DFromV<V>> half;
+    return hn::Add(hn::PromoteTo(wide, hn::LowerHalf(half, v)), hn::PromoteTo(wide, hn::UpperHalf(half, v)));
   }
 }
 

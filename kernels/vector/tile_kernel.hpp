@@ -74,7 +74,7 @@ class tile_kernel {
         [&](std::uint32_t i, const float(&place)[D], std::size_t) HWY_ATTR {
           const std::uint32_t* const end = near.template find<false>(place, 0, near.size(), hits);
           if (end == hits) return;
-          V u[S];
+          lane_vector<real> u[S];
           for (std::size_t s = 0; s < S; ++s) u[s] = hn::Zero(lane_tag<real>());
           add_boundary_lanes(t, i, hits, static_cast<std::size_t>(end - hits), u);
           add_sums<symmetric>(t, i, u);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/isa.hpp"
+#include "sum/mixed.hpp"
 #include "sum/problem.hpp"
 
 namespace pairsum {
@@ -42,20 +43,34 @@ inline constexpr std::size_t place_room = 32;
 /// What a vector kernel sees: the problem, the places of all particles, and the fluid once more as rows, so that a
 /// particle that was found is loaded whole: its position and the fields it brings to a pair, then, from `rates_at` on,
 /// its rates. For the talk's formula in 3D and double that makes two cache lines. The rows behind the fluid, some for
-/// each thread, are nowhere (NaN), so in reach of nothing: lanes without a particle point there.
+/// each thread, are in reach of nothing: lanes without a particle point there.
+///
+/// Values are of the pairs' precision, rates of the sums'. Where these differ (mixed) a position is three whole numbers
+/// modulo 2^32, mixed_places_per_reach to a reach, kept in the bits of values.
 template <class I>
 struct tile_problem {
   using real = typename I::real;
+  using value = pair_real<I>;
   static constexpr std::size_t values = I::dim + field_count<particle_of<I>>, rates = field_count<rates_of<I>>;
-  static constexpr std::size_t rates_at = padded(values), stride = rates_at + padded(rates);
+  static constexpr std::size_t value_per_rate = sizeof(real) / sizeof(value);
+  static constexpr std::size_t rates_at = padded(values);                           ///< in values
+  static constexpr std::size_t stride = rates_at + value_per_rate * padded(rates);  ///< in values
+  static constexpr std::size_t rates_stride = stride / value_per_rate;              ///< in rates
+  static_assert(stride % value_per_rate == 0 && rates_at * sizeof(value) % alignof(real) == 0);
 
   const problem<I>* p;
   std::array<const std::int32_t*, I::dim> place;  ///< [particle]; rounded to the nearest
-  float excess;  ///< how far, in units of the reach squared, rounding to places can move |x_i - x_j|^2
-  real* rows;    ///< [particle][stride], on 64-byte boundaries
+  float excess;      ///< how far, in units of the reach squared, rounding to places can move |x_i - x_j|^2
+  std::byte* rows;   ///< [particle][stride], on 64-byte boundaries
+  value mixed_unit;  ///< m: what positions of mixed rows are counted in
   /// Decides r^2 < reach2 for particles i and j as scalar code does; nullptr if lanes round alike. One of the two may
-  /// fuse products and sums (see fused()) and the other not, which matters for pairs within rounding of the reach.
+  /// fuse products and sums (see fused()) and the other not, or be more precise (mixed), which matters for pairs within
+  /// rounding of the reach: those with |r^2 - reach2| < tie * reach2.
   bool (*in_reach)(const problem<I>& p, std::uint32_t i, std::uint32_t j, real reach2);
+  value tie;
+
+  value* row(std::size_t i) const { return reinterpret_cast<value*>(rows) + i * stride; }
+  real* rates_of_row(std::size_t i) const { return reinterpret_cast<real*>(row(i) + rates_at); }
 };
 
 /// Sums the cells `cell[0..n)`: their fluid with the forward half of their neighbours, both sides (symmetric), or with

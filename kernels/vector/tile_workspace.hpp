@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -21,10 +22,14 @@ namespace pairsum {
 /// time, in the same order of cells.
 template <class I, bool symmetric>
 class tile_workspace {
-  using real = typename I::real;
   using tiles = tile_problem<I>;
+  using real = typename tiles::real;
+  using value = typename tiles::value;
   static constexpr std::size_t spare_rows = 16;             ///< per thread: as many as the widest vector has lanes
-  static constexpr std::size_t most_in_float = 0x7fffffff;  ///< numbers of boundary particles are lanes as wide as real
+  static constexpr std::size_t most_in_float = 0x7fffffff;  ///< numbers of particles are lanes as wide as values
+  static constexpr std::size_t row_bytes = tiles::stride * sizeof(value);
+  /// In a world narrower than this, in reaches, no two places coincide, so what the test lets pass is near.
+  static constexpr double unfolded = 2000;
 
  public:
   /// Does this workspace derive what fluid particles bring to a pair?
@@ -38,13 +43,14 @@ class tile_workspace {
                   !symmetric);
     check_isa(s.isa);
     excess_ = excess_in(s);
+    tie_ = widest(s) < unfolded ? 16 * std::numeric_limits<value>::epsilon() : std::numeric_limits<value>::infinity();
     if constexpr (takes_lanes<I>) {
       const auto kernels = vector_kernels<I>();
       for (const tile_kernels<I>& k : kernels)
         if (!kernel_ && (s.isa == best_isa || k.isa == s.isa)) {
           kernel_ = symmetric ? k.symmetric : k.gather;
           lanes_ = k.lanes;
-          rounds_alike_ = I::dim == 1 || k.fuses == scalar_fuses;
+          rounds_alike_ = !is_mixed<I> && (I::dim == 1 || k.fuses == scalar_fuses);
         }
       if (!kernel_ && !kernels.empty())
         throw error("interaction " + std::string(I::name) + " was not compiled for isa " + s.isa +
@@ -54,29 +60,34 @@ class tile_workspace {
 
   template <class Probe>
   void prepare(const problem<I>& p, const team& t, Probe&) {
-    if (kernel_ && sizeof(real) == 4 && p.count > most_in_float)
-      throw error("vector backends take at most 2^31 - 1 particles in float, got " + std::to_string(p.count));
+    if (kernel_ && sizeof(value) == 4 && p.count > most_in_float)
+      throw error("vector backends take at most 2^31 - 1 particles in float or mixed precision, got " +
+                  std::to_string(p.count));
     threads_ = t.threads();
     blocks_.build(p.cells());
     if (kernel_) {
       const std::size_t spare = spare_rows * static_cast<std::size_t>(t.threads());
-      rows_.resize((p.fluid_count + spare) * tiles::stride);
+      rows_.resize((p.fluid_count + spare) * row_bytes);
+      const tiles view = view_of(p);
       t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) fill(p, i);
+        for (std::size_t i = begin; i < end; ++i) fill(view, i);
       });
       for (auto& column : place_) column.resize(p.count + place_room);
       t.for_pieces(p.count, [&](std::size_t begin, std::size_t end, std::size_t) { fill_places(p, begin, end); });
-      std::fill(rows_.end() - static_cast<std::ptrdiff_t>(spare * tiles::stride), rows_.end(),
-                std::numeric_limits<real>::quiet_NaN());
+      for (std::size_t i = p.fluid_count; i < p.fluid_count + spare; ++i) {
+        std::fill_n(view.row(i), tiles::rates_at, std::numeric_limits<value>::quiet_NaN());
+        std::fill_n(view.rates_of_row(i), padded(tiles::rates), real(0));
+      }
     }
   }
 
   /// The rates of rows to 0; gathers add to the columns.
   void zero(const problem<I>& p, const team& t) {
+    const tiles view = view_of(p);
     t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) {
         if (symmetric && kernel_)
-          std::fill_n(rows_.data() + i * tiles::stride + tiles::rates_at, tiles::rates, real(0));
+          std::fill_n(view.rates_of_row(i), tiles::rates, real(0));
         else
           p.u.store(i, pairsum::zero<rates_of<I>>());
       }
@@ -95,10 +106,7 @@ class tile_workspace {
   void sum_block(const problem<I>& p, unsigned colour, std::size_t block, int thread, Probe& probe) {
     const auto cell = blocks_(colour, block);
     if (kernel_) {
-      std::array<const std::int32_t*, I::dim> place;
-      for (int d = 0; d < I::dim; ++d) place[d] = place_[d].data();
-      const tiles view{&p, place, excess_, rows_.data(), rounds_alike_ ? nullptr : &in_reach};
-      kernel_(view, cell.data(), cell.size(),
+      kernel_(view_of(p), cell.data(), cell.size(),
               static_cast<std::uint32_t>(p.fluid_count + spare_rows * static_cast<std::size_t>(thread)));
     } else {
       for (const std::uint32_t c : cell) sum_scalar(p, c, probe);
@@ -107,11 +115,12 @@ class tile_workspace {
 
   /// Brings the rates of rows to the columns.
   void reduce(const problem<I>& p, const team& t) {
+    const tiles view = view_of(p);
     if (symmetric && kernel_)
       t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
           for (std::size_t s = 0; s < tiles::rates; ++s)
-            p.u.template column_as<real>(static_cast<int>(s))[i] = rows_[i * tiles::stride + tiles::rates_at + s];
+            p.u.template column_as<real>(static_cast<int>(s))[i] = view.rates_of_row(i)[s];
       });
   }
 
@@ -132,36 +141,58 @@ class tile_workspace {
 
   /// Bytes of a cell's particles, at the talk's spacing of H/2.
   static std::size_t bytes_per_cell(int dim) {
-    return (std::size_t{1} << dim) * (tiles::stride * sizeof(real) + I::dim * sizeof(std::int32_t));
+    return (std::size_t{1} << dim) * (row_bytes + I::dim * sizeof(std::int32_t));
   }
 
-  void fill(const problem<I>& p, std::size_t i) {
+  tiles view_of(const problem<I>& p) {
+    tiles view{};
+    view.p = &p;
+    for (int d = 0; d < I::dim; ++d) view.place[d] = place_[d].data();
+    view.excess = excess_;
+    view.rows = rows_.data();
+    view.mixed_unit = static_cast<value>(reach(p) / mixed_places_per_reach);
+    view.in_reach = rounds_alike_ ? nullptr : &in_reach;
+    view.tie = tie_;
+    return view;
+  }
+
+  static void fill(const tiles& view, std::size_t i) {
+    const problem<I>& p = *view.p;
     const auto& set = *p.particles;
     const particle_state<I::dim, real> state{set.position(i), set.velocity(i), set.rho[i], set.m[i], set.id[i]};
-    real* const row = rows_.data() + i * tiles::stride;
-    for (int d = 0; d < I::dim; ++d) row[d] = state.x[d];
-    each_scalar(p.formula->derive(state), [&](const real& a, int k) { row[I::dim + k] = a; });
+    value* const row = view.row(i);
+    for (int d = 0; d < I::dim; ++d) {
+      if constexpr (is_mixed<I>)
+        row[d] = std::bit_cast<value>(place(p.x.column[d], i, mixed_places_per_reach / reach(p)));
+      else
+        row[d] = state.x[d];
+    }
+    each_scalar(p.formula->derive(state), [&](const real& a, int k) { row[I::dim + k] = static_cast<value>(a); });
+  }
+
+  /// Omega's longest edge, in units of the reach.
+  static double widest(const setup& s) {
+    double longest = 0;
+    for (std::size_t d = 0; d < s.omega_low.size(); ++d) longest = std::max(longest, s.omega_high[d] - s.omega_low[d]);
+    return longest / s.constants.H;
   }
 
   /// Rounding to places moves a component of x_i - x_j by up to one of them, and by what doubles cannot hold of it in a
   /// world as wide as Omega.
   static float excess_in(const setup& s) {
-    double widest = 0;
-    for (std::size_t d = 0; d < s.omega_low.size(); ++d) widest = std::max(widest, s.omega_high[d] - s.omega_low[d]);
-    const double component = 1.0 / places_per_reach + widest / s.constants.H * 0x1p-51;  // in units of the reach
+    const double component = 1.0 / places_per_reach + widest(s) * 0x1p-51;  // in units of the reach
     return static_cast<float>(2 * std::sqrt(3.0) * component + 3 * component * component);
   }
 
-  /// From the first particle, so that a world far from 0 keeps its digits.
+  static double reach(const problem<I>& p) { return std::sqrt(static_cast<double>(p.reach2)); }
+  /// x[i] in places, from the first particle on, so that a world far from 0 keeps its digits.
+  static std::int32_t place(const real* x, std::size_t i, double places_per_metre) {
+    return modulo_2_32(std::floor((static_cast<double>(x[i]) - static_cast<double>(x[0])) * places_per_metre + 0.5));
+  }
   void fill_places(const problem<I>& p, std::size_t begin, std::size_t end) {
-    if (begin == end) return;
-    const double scale = places_per_reach / std::sqrt(static_cast<double>(p.reach2));
-    for (int d = 0; d < I::dim; ++d) {
-      const real* const x = p.x.column[d];
-      const double first = x[0];
-      for (std::size_t i = begin; i < end; ++i)
-        place_[d][i] = modulo_2_32(std::floor((static_cast<double>(x[i]) - first) * scale + 0.5));
-    }
+    const double scale = places_per_reach / reach(p);
+    for (int d = 0; d < I::dim; ++d)
+      for (std::size_t i = begin; i < end; ++i) place_[d][i] = place(p.x.column[d], i, scale);
   }
   /// A whole number modulo 2^32, whatever its size.
   static std::int32_t modulo_2_32(double x) {
@@ -183,12 +214,13 @@ class tile_workspace {
     }
   }
 
-  column<real> rows_;
+  column<std::byte> rows_;
   std::array<column<std::int32_t>, I::dim> place_;
   cell_blocks<I::dim> blocks_;
   tile_function<I> kernel_ = nullptr;
   std::size_t lanes_ = 1;
   float excess_ = 0;
+  value tie_ = 0;
   bool rounds_alike_ = true;
   int threads_ = 0;
 };

@@ -35,8 +35,8 @@ constexpr std::string_view compiled_vector_isa() {
 /// The kernels of the instruction set this is compiled for.
 template <class I>
 tile_kernels<I> compiled_kernels() {
-  using kernel = tile_kernel<I, lane_vector<typename I::real>>;
-  return {compiled_vector_isa(), lane_count<typename I::real>, HWY_NATIVE_FMA != 0, &kernel::template sum<true>,
+  using kernel = tile_kernel<I, lane_vector<pair_real<I>>>;
+  return {compiled_vector_isa(), lane_count<pair_real<I>>, HWY_NATIVE_FMA != 0, &kernel::template sum<true>,
           &kernel::template sum<false>};
 }
 #endif

@@ -41,10 +41,11 @@ inline bool touching(const particle_table& p, const std::string& precision) {
   return false;
 }
 
-/// A formula of this build in that dimension.
-inline rc::Gen<formula> any_formula(int dim) {
+/// A formula of this build in that dimension that the backend takes.
+inline rc::Gen<formula> any_formula(int dim, const std::string& backend) {
   std::vector<formula> all = formulas();
-  std::erase_if(all, [dim](const formula& f) { return f.dim != dim; });
+  std::erase_if(all,
+                [&](const formula& f) { return f.dim != dim || std::ranges::count(backends_for(f), backend) == 0; });
   return rc::gen::elementOf(all);
 }
 

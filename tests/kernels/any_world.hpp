@@ -15,11 +15,12 @@ struct world_kind {
 };
 inline std::ostream& operator<<(std::ostream& o, const world_kind& k) { return o << k.dim << "D_" << k.precision; }
 
-/// Every dimension and precision of this build.
+/// Every dimension and precision of positions of this build.
 inline std::vector<world_kind> world_kinds() {
   std::vector<world_kind> all;
   for (const int dim : registry::instance().dims())
-    for (const std::string& precision : registry::instance().precisions()) all.push_back({dim, precision});
+    for (const std::string& precision : registry::instance().precisions())
+      if (precision != "mixed") all.push_back({dim, precision});
   return all;
 }
 

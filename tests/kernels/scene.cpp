@@ -42,6 +42,7 @@ std::vector<formula> formulas() {
   for (const int dim : r.dims())
     for (const std::string& precision : r.precisions())
       for (const std::string& interaction : r.interactions()) {
+        if (precision == "mixed" && interaction == "count") continue;  // whole numbers
         if (!r.is_smoothed(interaction)) all.push_back({dim, precision, interaction, "none"});
         if (r.is_smoothed(interaction))
           for (const std::string& smoothing : r.smoothings()) all.push_back({dim, precision, interaction, smoothing});
@@ -59,6 +60,13 @@ std::vector<std::string> backend_names() {
   std::vector<std::string> names;
   for (const backend_entry& b : registry::instance().backends())
     if (b.unavailable.empty()) names.emplace_back(b.traits.name);
+  return names;
+}
+
+std::vector<std::string> backends_for(const formula& f) {
+  std::vector<std::string> names = backend_names();
+  if (f.precision == "mixed")
+    std::erase_if(names, [](const auto& name) { return !registry::instance().find_backend(name).traits.vector; });
   return names;
 }
 

