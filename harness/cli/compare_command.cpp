@@ -38,8 +38,9 @@ int compare(const compare_options& o) {
 void add_compare_command(CLI::App& app, action& chosen) {
   CLI::App* const command =
       app.add_subcommand("compare",
-                         "Is B faster than A, by how much, and how sure is that? A and B are two backends, two\n"
-                         "rows files (or folders), or two git revisions that rows were measured with");
+                         "Is B faster than A, by how much, and how sure is that? A and B are two backends, with\n"
+                         "words like precision=mixed for what else may differ, two rows files (or folders), or two\n"
+                         "git revisions that rows were measured with");
   const auto o = std::make_shared<compare_options>();
   command->add_option("A", o->request.a, "the base")->required();
   command->add_option("B", o->request.b, "what is compared with it")->required();
@@ -52,6 +53,7 @@ void add_compare_command(CLI::App& app, action& chosen) {
   command->footer(
       "Examples:\n"
       "  pairsum compare naive_omp symmetric_omp --in results/talk\n"
+      "  pairsum compare \"symmetric_omp precision=double\" \"tiles_omp precision=mixed\" --in results/vector\n"
       "  pairsum compare before.jsonl after.jsonl\n"
       "  pairsum compare 1a2b3c4d 5e6f7a8b --in results/quick --phase total");
   command->callback([&chosen, o] { chosen = [o] { return compare(*o); }; });

@@ -7,6 +7,7 @@
 #include "cases/case.hpp"
 #include "core/isa.hpp"
 #include "core/names.hpp"
+#include "core/precision.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/plan/study.hpp"
 #include "integrators/integrator.hpp"
@@ -30,6 +31,14 @@ std::vector<std::string> precisions_of(const backend_entry& b, const registry& r
     if (!expand(q, r).empty()) precisions.push_back(precision);
   }
   return precisions;
+}
+
+/// "double, float, mixed (on vector units)"
+std::string precisions_text(const registry& r) {
+  std::vector<std::string> words = r.precisions();
+  for (std::string& word : words)
+    if (word == mixed_precision) word += " (vector backends)";
+  return join(words);
 }
 
 nlohmann::json as_json() {
@@ -94,7 +103,7 @@ void print_text() {
   fmt::print(
       "interactions      {}\nsmoothing kernels {}\nprecisions        {}\ndimensions        {}\ngrids             {}\n"
       "orders of memory  {}\nstates            {}\ninstruction sets  {} (of vector backends)\n",
-      join(r.interactions()), join(r.smoothings()), join(r.precisions()), join(dims), join(grid_names()),
+      join(r.interactions()), join(r.smoothings()), precisions_text(r), join(dims), join(grid_names()),
       join(memory_orders), join(case_states), join(isa_names()));
 }
 

@@ -8,6 +8,7 @@
 #include "harness/environment/machine.hpp"
 #include "harness/measure/memory.hpp"
 #include "harness/plan/plan.hpp"
+#include "harness/plan/variants.hpp"
 #include "harness/plan/words.hpp"
 #include "harness/rows/point_words.hpp"
 #include "harness/run/point_setup.hpp"
@@ -114,6 +115,11 @@ int verify(const verify_options& o) {
   if (o.dim == "all")
     for (const case_entry& c : case_entries())
       if (c.name == o.case_name) std::erase_if(dims, [&](int dim) { return dim < c.least_dim; });
+  if (!dims.empty()) {
+    q.dim = dims.front();
+    if (o.precision == "all") leave_out_unbuilt(q, &run_request::precisions, r);
+    if (o.interaction == "all") leave_out_unbuilt(q, &run_request::interactions, r);
+  }
   for (const int dim : dims) {
     q.dim = dim;
     fill_in_defaults(q, o);

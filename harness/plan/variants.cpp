@@ -7,6 +7,7 @@
 
 #include "core/isa.hpp"
 #include "core/names.hpp"
+#include "core/precision.hpp"
 #include "harness/environment/environment.hpp"
 #include "sum/grids.hpp"
 
@@ -46,6 +47,19 @@ bool is_built(const std::string& backend, int dim, const point& world, const reg
   return true;
 }
 
+/// Is any of the request's backends built for any of its precisions and interactions?
+bool is_any_built(const run_request& r, const registry& all) {
+  point world;
+  for (const std::string& precision : r.precisions)
+    for (const std::string& interaction : r.interactions) {
+      world.precision = precision;
+      world.interaction = interaction;
+      world.smoothing = all.is_smoothed(interaction) ? r.smoothings.front() : std::string(no_smoothing);
+      if (!built_backends(r, world, all).empty()) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 std::vector<cell_grid> grids_of(const run_request& r) {
@@ -74,24 +88,27 @@ std::vector<std::string> built_backends(const run_request& r, const point& world
   return built;
 }
 
+void leave_out_unbuilt(run_request& r, std::vector<std::string> run_request::*words, const registry& all) {
+  std::vector<std::string> built;
+  for (const std::string& word : r.*words) {
+    run_request one = r;
+    one.*words = {word};
+    if (is_any_built(one, all)) built.push_back(word);
+  }
+  if (!built.empty()) r.*words = built;
+}
+
 void check_built(const run_request& r, const registry& all) {
-  const auto is_built = [&](const std::string& precision, const std::string& interaction) {
-    point world;
-    world.precision = precision;
-    world.interaction = interaction;
-    world.smoothing = all.is_smoothed(interaction) ? r.smoothings.front() : std::string(no_smoothing);
-    return !built_backends(r, world, all).empty();
-  };
-  const auto refuse = [&](const auto& interactions, const auto& precisions) {
-    throw error(fmt::format("none of the backends {} is built for {} in {}D and precision {}", join(r.backends),
-                            interactions, r.dim, precisions));
-  };
-  for (const std::string& precision : r.precisions)
-    if (std::ranges::none_of(r.interactions, [&](const auto& i) { return is_built(precision, i); }))
-      refuse(join(r.interactions), precision);
-  for (const std::string& interaction : r.interactions)
-    if (std::ranges::none_of(r.precisions, [&](const auto& p) { return is_built(p, interaction); }))
-      refuse(interaction, join(r.precisions));
+  for (const auto words : {&run_request::precisions, &run_request::interactions})
+    for (const std::string& word : r.*words) {
+      run_request one = r;
+      one.*words = {word};
+      if (!is_any_built(one, all))
+        throw error(
+            fmt::format("none of the backends {} is built for {} in {}D and precision {}{}", join(r.backends),
+                        join(one.interactions), r.dim, join(one.precisions),
+                        word == mixed_precision ? ", which is for interactions of real numbers on vector units" : ""));
+    }
 }
 
 }  // namespace pairsum::harness

@@ -9,6 +9,7 @@
 #include "core/names.hpp"
 #include "harness/report/builds.hpp"
 #include "harness/report/compared_points.hpp"
+#include "harness/report/compared_side.hpp"
 #include "harness/report/report.hpp"
 #include "harness/report/text_table.hpp"
 #include "harness/rows/point_words.hpp"
@@ -58,10 +59,13 @@ std::vector<rows_file> of_revision(std::vector<rows_file> files, const std::stri
   return files;
 }
 
+/// The first word: what is behind it is read when it is known to be a backend.
+std::string backend_of(const std::string& side) { return side.substr(0, side.find(' ')); }
+
 kind kind_of(const compare_request& r, const std::vector<rows_file>& files) {
   if (files.empty()) return kind::files;
   const auto backends = backends_in(files);
-  if (backends.contains(r.a) && backends.contains(r.b)) return kind::backends;
+  if (backends.contains(backend_of(r.a)) && backends.contains(backend_of(r.b))) return kind::backends;
   const auto of_a = revisions_in(files, r.a), of_b = revisions_in(files, r.b);
   if (!of_a.empty() && of_a == of_b)
     throw error(fmt::format("\"{}\" and \"{}\" both name the revision {}", r.a, r.b, join(of_a)));
@@ -107,15 +111,18 @@ struct compared {
 };
 
 /// Do two backends, each with its fastest granularity, or two builds do the same?
-bool do_the_same(const compare_request& r, kind what, const measurements& all, const measured_point& p,
-                 const measured_point& q) {
+bool do_the_same(const compare_request& r, kind what, const compared_side& a, const compared_side& b,
+                 const measurements& all, const measured_point& p, const measured_point& q) {
   point like = q.point;
   // What the build was compiled for is no choice; two vector backends, or two builds of one, have the same.
   if (!chooses_isa(p.point) || !chooses_isa(q.point)) like.isa = p.point.isa;
   if (what != kind::backends) return like == p.point;
+  const series &of_p = all.series[p.series], &of_q = all.series[q.series];
+  if (of_p.build != of_q.build || of_p.seed != of_q.seed) return false;
+  if (&p == &q || !is_of(p.point, a) || !is_of(q.point, b)) return false;
   if (p.point.block == "none" || q.point.block == "none") like.block = p.point.block;
-  if (p.series != q.series || p.point.backend != r.a || q.point.backend != r.b) return false;
-  like.backend = r.a;
+  like = without_differences(like, p.point, a, b);
+  like.backend = a.backend;
   like.granularity = p.point.granularity;
   return like == p.point && has_best_granularity(all, p, r.phase) && has_best_granularity(all, q, r.phase);
 }
@@ -126,12 +133,15 @@ bool share_a_round(const measured_point& p, const measured_point& q) {
 
 /// Every point of side a with its counterpart on side b.
 std::vector<compared> pairs_of(const compare_request& r, kind what, const measurements& a, const measurements& b) {
+  compared_side side_a, side_b;
+  if (what == kind::backends) side_a = parse_side(r.a), side_b = parse_side(r.b);
   std::vector<compared> found;
   std::vector<std::string> unsaid;  // that sides are not paired is said once
   for (const measured_point& p : a.points)
     for (const measured_point& q : b.points) {
       if (!comparable_time(p, r.phase) || !comparable_time(q, r.phase)) continue;
-      if (a.series[p.series].study != b.series[q.series].study || !do_the_same(r, what, a, p, q)) continue;
+      if (a.series[p.series].study != b.series[q.series].study || !do_the_same(r, what, side_a, side_b, a, p, q))
+        continue;
       found.push_back({&p, &q,
                        share_a_round(p, q) && what != kind::files
                            ? ratio_of(a, p, q, unsaid, r.phase)
@@ -151,10 +161,12 @@ std::string variant_of(const point& p) {
   return (chooses_isa(p) ? " " + p.isa : "") + (p.block == "none" || p.block == "auto" ? "" : " " + p.block);
 }
 
-/// What a point is, in the words that tell the pairs apart.
-std::string place(const point& p, kind what, bool with_rare_words) {
+/// What a point and its counterpart are, in the words that tell the pairs apart.
+std::string place(const point& p, const point& q, kind what, bool with_rare_words) {
+  const auto both = [](const std::string& a, const std::string& b) { return a == b ? a : a + "/" + b; };
   return fmt::format("{}{} {} dx={} {} threads={}{}{}", what == kind::backends ? "" : p.backend + " ", p.case_name,
-                     p.state, p.dx, cells_word(p), p.threads, variant_of(p),
+                     both(p.state, q.state), p.dx, both(cells_word(p), cells_word(q)),
+                     both(std::to_string(p.threads), std::to_string(q.threads)), variant_of(p),
                      with_rare_words ? " " + rare_words(p) : "");
 }
 
@@ -172,7 +184,7 @@ std::string table_of(const compare_request& r, kind what, const std::vector<comp
     const compared& c = pairs[k];
     faster += verdicts[k] == ratio_verdict::faster;
     slower += verdicts[k] == ratio_verdict::slower;
-    table.add({place(c.a->point, what, rare.size() > sizes.size()),
+    table.add({place(c.a->point, c.b->point, what, rare.size() > sizes.size()),
                fmt::format("{}/{}", c.a->rounds.size(), c.b->rounds.size()), ms(*median_of(*c.a, r.phase)),
                ms(*median_of(*c.b, r.phase)), fmt::format("{:.3f}", c.ratio.value),
                c.ratio.bounds ? fmt::format("[{:.3f}, {:.3f}]", c.ratio.bounds->low, c.ratio.bounds->high)

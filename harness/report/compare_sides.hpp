@@ -10,7 +10,7 @@ namespace pairsum::harness {
 
 /// What is compared with what.
 struct compare_request {
-  std::string a, b;                           ///< two backends, two rows files (or folders), or two git revisions
+  std::string a, b;  ///< two backends (see compared_side), two rows files (or folders), or two git revisions
   std::vector<std::filesystem::path> inputs;  ///< rows files or folders that hold the backends or revisions
   std::optional<double> phases::*phase = &phases::sum_s;
   bool allow_mixed = false;  ///< different machines, or builds with uncommitted changes

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <string_view>
 #include <type_traits>
 
@@ -7,9 +8,9 @@
 namespace pairsum {
 
 /// Interaction I in mixed precision: state, derived terms and sums in I's double, the terms of fluid pairs in float.
-/// For vector backends, which pack pairs of float into a vector and half the bytes into a row; boundary terms are in
-/// double. Positions enter as whole numbers of which 2^28 make a reach, so that x_i - x_j, exact until it becomes a
-/// float, does not lose digits far from the origin. Which pairs interact is decided in double.
+/// For vector backends, which pack pairs of float into a vector and half the bytes into a row; boundary terms are
+/// evaluated in double. Positions enter as whole numbers of which at least 2^28 make a reach, so that x_i - x_j, exact
+/// until it becomes a float, does not lose digits far from the origin. Which pairs interact is decided in double.
 template <class I>
 struct mixed : I {
   static_assert(std::is_same_v<typename I::real, double>);
@@ -33,8 +34,9 @@ using pair_real = typename mixed_detail::pair_real<I>::type;
 template <class I>
 inline constexpr bool is_mixed = !std::is_same_v<pair_real<I>, typename I::real>;
 
-/// Where a mixed interaction's positions are rounded to, in units of the reach.
+/// A mixed interaction's positions are counted in a power of two of metres, of which so many or more make a reach.
 inline constexpr double mixed_places_per_reach = 1 << 28;
+inline double mixed_unit(double reach) { return std::exp2(std::floor(std::log2(reach / mixed_places_per_reach))); }
 
 /// The word for I's precision.
 template <class I>

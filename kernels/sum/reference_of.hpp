@@ -13,15 +13,15 @@
 
 namespace pairsum {
 
-/// The reference for one interaction in one precision. Terms are evaluated in R with their error bounds, sums run in
-/// long double. A backend's rate may differ by its terms' errors, the reference's own, and the backend's n additions in
-/// any order:
+/// The reference for one interaction in one precision. Terms are evaluated in R, with bounds for the precision of pairs
+/// (float in mixed, whose boundary pairs are in double), sums run in long double. A backend's rate may differ by its
+/// terms' errors, the reference's own, and the backend's n additions in any order:
 ///   |rate - value| <= 2 sum e_k + n u / (1 - n u) * sum (|t_k| + 2 e_k)           (Higham, sec. 4.2)
 template <class I>
 class reference_of final : public reference {
   using R = typename I::real;
   using tracked = running_error<R, pair_real<I>>;  ///< in a pair
-  using derived_value = running_error<R>;          ///< in what a particle brings to it
+  using own = running_error<R>;                    ///< in what a particle brings to it, and at the boundary
   static constexpr int D = I::dim;
   using rates = typename I::template rates<tracked>;
   static constexpr int slots = field_count<rates>;
@@ -80,15 +80,12 @@ class reference_of final : public reference {
     typename I::template particle<tracked> particle(std::uint32_t i) const {
       return derived.empty() ? derive(i) : derived[i];
     }
-    auto boundary(std::uint32_t i) const { return f.formula_.derive_boundary(state<tracked>(i)); }
+    auto boundary(std::uint32_t i) const { return f.formula_.derive_boundary(state<own>(i)); }
     typename I::template particle<tracked> derive(std::uint32_t i) const {
       if constexpr (is_mixed<I>) {
-        std::array<tracked, field_count<typename I::template particle<tracked>>> rounded;
-        each_scalar(f.formula_.derive(state<derived_value>(i)),
-                    [&](const derived_value& a, int k) { rounded[k] = tracked(a.v, a.e + tracked::rounded(a.v)); });
-        typename I::template particle<tracked> brings;
-        each_scalar(brings, [&](tracked& a, int k) { a = rounded[k]; });
-        return brings;
+        return each_as<tracked>(f.formula_.derive(state<own>(i)), [](const own& a) {
+          return tracked(a.v, a.e + tracked::rounded(a.v) + tracked::underflow);
+        });
       } else {
         return f.formula_.derive(state<tracked>(i));
       }
@@ -134,7 +131,8 @@ class reference_of final : public reference {
     std::array<long double, slots> value{}, magnitude{}, error{};
     std::size_t terms = 0;
 
-    void take(const rates& one, const rates* other) {
+    template <class Rates>
+    void take(const Rates& one, const Rates* other = nullptr) {
       ++terms;
       std::array<double, slots> e;
       each_scalar(one, [&](const auto& t, int k) {
@@ -145,8 +143,14 @@ class reference_of final : public reference {
       if (other) each_scalar(*other, [&](const auto& t, int k) { e[k] = std::max(e[k], error_of(t)); });
       for (int k = 0; k < slots; ++k) error[k] += e[k];
     }
-    static long double plain(const tracked& t) { return t.v; }
-    static double error_of(const tracked& t) { return t.e; }
+    template <class U>
+    static long double plain(const running_error<R, U>& t) {
+      return t.v;
+    }
+    template <class U>
+    static double error_of(const running_error<R, U>& t) {
+      return t.e;
+    }
     static long double plain(std::uint64_t n) { return n; }
     static double error_of(std::uint64_t) { return 0; }
   };
@@ -173,15 +177,21 @@ class reference_of final : public reference {
           const vec<D, R> r = w.x[i] - w.x[j];
           const R r2 = norm2<D, R>(r);
           if (!(r2 < H_ * H_)) return;
-          vec<D, tracked> rt;
-          for (int d = 0; d < D; ++d) rt[d] = tracked(r[d], error_of_component(r[d]));
-          const tracked r2t(r2, error_of_square(r, r2));
           if (w.kind[j] == particle_kind::boundary) {
             ++walls;
-            if constexpr (has_boundary<I>)
-              if (r2 < boundary_reach * boundary_reach) s.take(formula_.boundary(rt, r2t, a_i, w.boundary(j)), nullptr);
+            if constexpr (has_boundary<I>) {
+              if (!(r2 < boundary_reach * boundary_reach)) return;
+              vec<D, own> rt;
+              for (int d = 0; d < D; ++d) rt[d] = own(r[d], own::rounded(r[d]));
+              const own r2t(r2, (D + 2) * own::rounded(r2));
+              const auto brought = each_as<own>(a_i, [](const tracked& a) { return own(a.v, a.e); });
+              s.take(formula_.boundary(rt, r2t, brought, w.boundary(j)));
+            }
           } else {
             ++sides;
+            vec<D, tracked> rt;
+            for (int d = 0; d < D; ++d) rt[d] = tracked(r[d], error_of_component(r[d]));
+            const tracked r2t(r2, error_of_square(r, r2));
             const auto a_j = w.particle(j);
             const vec<D, tracked> back = -rt;
             const auto seen_from_j = formula_.pair(back, r2t, a_j, a_i).to_j;
@@ -205,11 +215,25 @@ class reference_of final : public reference {
     return out;
   }
 
-  /// How far x_i - x_j of a backend may be from ours. A mixed one rounds either position to a place, then the number
-  /// of places, what a place is in m, and their product.
+  /// What a particle brings, each scalar put through f. (Whole numbers are none of f's business.)
+  template <class T, class Particle, class F>
+  static typename I::template particle<T> each_as(const Particle& a, F&& f) {
+    if constexpr (std::is_same_v<Particle, typename I::template particle<T>>) {
+      return a;
+    } else {
+      std::array<T, field_count<Particle>> values;
+      each_scalar(a, [&](const auto& v, int k) { values[k] = f(v); });
+      typename I::template particle<T> same;
+      each_scalar(same, [&](T& v, int k) { v = values[k]; });
+      return same;
+    }
+  }
+
+  /// How far x_i - x_j of a backend may be from ours. A mixed one rounds either position to a whole number, and their
+  /// difference to float.
   double error_of_component(R r) const {
     if constexpr (is_mixed<I>)
-      return 3.01 * tracked::rounded(r) + static_cast<double>(H_) * (1 / mixed_places_per_reach);
+      return 1.01 * tracked::rounded(r) + static_cast<double>(H_) * (1 / mixed_places_per_reach);
     else
       return tracked::rounded(r);
   }

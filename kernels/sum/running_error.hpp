@@ -18,7 +18,7 @@ struct running_error {
 
   running_error() = default;
   running_error(R value)  // NOLINT: inputs convert
-      : v(value), e(static_cast<R>(static_cast<U>(value)) == value ? 0 : rounded(value)) {}
+      : v(value), e(static_cast<R>(static_cast<U>(value)) == value ? 0 : rounded(value) + underflow) {}
   running_error(R value, double bound) : v(value), e(bound) {}
   template <class N>
   requires(std::is_arithmetic_v<N> && !std::is_same_v<N, R>) explicit(false) running_error(N value)

@@ -45,8 +45,8 @@ inline constexpr std::size_t place_room = 32;
 /// its rates. For the talk's formula in 3D and double that makes two cache lines. The rows behind the fluid, some for
 /// each thread, are in reach of nothing: lanes without a particle point there.
 ///
-/// Values are of the pairs' precision, rates of the sums'. Where these differ (mixed) a position is three whole numbers
-/// modulo 2^32, mixed_places_per_reach to a reach, kept in the bits of values.
+/// Values are of the pairs' precision, rates of the sums'. Where these differ (mixed) a component of a position is a
+/// whole number of mixed_unit modulo 2^32, kept in the bits of a value.
 template <class I>
 struct tile_problem {
   using real = typename I::real;
@@ -65,12 +65,13 @@ struct tile_problem {
   value mixed_unit;  ///< m: what positions of mixed rows are counted in
   /// Decides r^2 < reach2 for particles i and j as scalar code does; nullptr if lanes round alike. One of the two may
   /// fuse products and sums (see fused()) and the other not, or be more precise (mixed), which matters for pairs within
-  /// rounding of the reach: those with |r^2 - reach2| < tie * reach2.
+  /// rounding of the reach: those with |r^2 - reach2| < tie * reach2, which is all of
+  /// them if tie is infinite.
   bool (*in_reach)(const problem<I>& p, std::uint32_t i, std::uint32_t j, real reach2);
   value tie;
 
-  value* row(std::size_t i) const { return reinterpret_cast<value*>(rows) + i * stride; }
-  real* rates_of_row(std::size_t i) const { return reinterpret_cast<real*>(row(i) + rates_at); }
+  [[gnu::always_inline]] value* row(std::size_t i) const { return reinterpret_cast<value*>(rows) + i * stride; }
+  [[gnu::always_inline]] real* rates_of_row(std::size_t i) const { return reinterpret_cast<real*>(row(i) + rates_at); }
 };
 
 /// Sums the cells `cell[0..n)`: their fluid with the forward half of their neighbours, both sides (symmetric), or with

@@ -28,7 +28,8 @@ class tile_workspace {
   static constexpr std::size_t spare_rows = 16;             ///< per thread: as many as the widest vector has lanes
   static constexpr std::size_t most_in_float = 0x7fffffff;  ///< numbers of particles are lanes as wide as values
   static constexpr std::size_t row_bytes = tiles::stride * sizeof(value);
-  /// In a world narrower than this, in reaches, no two places coincide, so what the test lets pass is near.
+  /// In a world narrower than this, in reaches, what the test lets pass is near. In a wider one places coincide, so all
+  /// pairs of whole-number rows (mixed) are decided one by one.
   static constexpr double unfolded = 2000;
 
  public:
@@ -43,7 +44,8 @@ class tile_workspace {
                   !symmetric);
     check_isa(s.isa);
     excess_ = excess_in(s);
-    tie_ = widest(s) < unfolded ? 16 * std::numeric_limits<value>::epsilon() : std::numeric_limits<value>::infinity();
+    tie_ = !is_mixed<I> || widest(s) < unfolded ? 16 * std::numeric_limits<value>::epsilon()
+                                                : std::numeric_limits<value>::infinity();
     if constexpr (takes_lanes<I>) {
       const auto kernels = vector_kernels<I>();
       for (const tile_kernels<I>& k : kernels)
@@ -60,13 +62,13 @@ class tile_workspace {
 
   template <class Probe>
   void prepare(const problem<I>& p, const team& t, Probe&) {
-    if (kernel_ && sizeof(value) == 4 && p.count > most_in_float)
+    const std::size_t spare = spare_rows * static_cast<std::size_t>(t.threads());
+    if (kernel_ && sizeof(value) == 4 && p.count + spare > most_in_float)
       throw error("vector backends take at most 2^31 - 1 particles in float or mixed precision, got " +
                   std::to_string(p.count));
     threads_ = t.threads();
     blocks_.build(p.cells());
     if (kernel_) {
-      const std::size_t spare = spare_rows * static_cast<std::size_t>(t.threads());
       rows_.resize((p.fluid_count + spare) * row_bytes);
       const tiles view = view_of(p);
       t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -150,7 +152,7 @@ class tile_workspace {
     for (int d = 0; d < I::dim; ++d) view.place[d] = place_[d].data();
     view.excess = excess_;
     view.rows = rows_.data();
-    view.mixed_unit = static_cast<value>(reach(p) / mixed_places_per_reach);
+    view.mixed_unit = static_cast<value>(mixed_unit(reach(p)));
     view.in_reach = rounds_alike_ ? nullptr : &in_reach;
     view.tie = tie_;
     return view;
@@ -163,7 +165,7 @@ class tile_workspace {
     value* const row = view.row(i);
     for (int d = 0; d < I::dim; ++d) {
       if constexpr (is_mixed<I>)
-        row[d] = std::bit_cast<value>(place(p.x.column[d], i, mixed_places_per_reach / reach(p)));
+        row[d] = std::bit_cast<value>(modulo_2_32(state.x[d] / static_cast<double>(view.mixed_unit)));
       else
         row[d] = state.x[d];
     }
@@ -185,19 +187,20 @@ class tile_workspace {
   }
 
   static double reach(const problem<I>& p) { return std::sqrt(static_cast<double>(p.reach2)); }
-  /// x[i] in places, from the first particle on, so that a world far from 0 keeps its digits.
-  static std::int32_t place(const real* x, std::size_t i, double places_per_metre) {
-    return modulo_2_32(std::floor((static_cast<double>(x[i]) - static_cast<double>(x[0])) * places_per_metre + 0.5));
-  }
+  /// From the first particle, so that a world far from 0 keeps its digits.
   void fill_places(const problem<I>& p, std::size_t begin, std::size_t end) {
+    if (begin == end) return;
     const double scale = places_per_reach / reach(p);
-    for (int d = 0; d < I::dim; ++d)
-      for (std::size_t i = begin; i < end; ++i) place_[d][i] = place(p.x.column[d], i, scale);
+    for (int d = 0; d < I::dim; ++d) {
+      const real* const x = p.x.column[d];
+      const double first = x[0];
+      for (std::size_t i = begin; i < end; ++i) place_[d][i] = modulo_2_32((static_cast<double>(x[i]) - first) * scale);
+    }
   }
-  /// A whole number modulo 2^32, whatever its size.
+  /// x, rounded to a whole number, modulo 2^32, whatever its size: no rounding but the last.
   static std::int32_t modulo_2_32(double x) {
     constexpr double turn = 4294967296;
-    const double rest = x - std::floor(x * (1 / turn) + 0.5) * turn;  // in [-2^31, 2^31]
+    const double rest = std::floor(x - std::floor(x * (1 / turn) + 0.5) * turn + 0.5);  // in [-2^31, 2^31]
     // Where doubles are coarser than 2^32 places, any number will do that is the same for the same x.
     return static_cast<std::int32_t>(
         static_cast<std::uint32_t>(static_cast<std::int64_t>(std::abs(rest) <= turn ? rest : 0)));

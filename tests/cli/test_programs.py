@@ -33,12 +33,13 @@ def backends(listed):
 def number_of_sums(listed, M, threads):
     """How many sums `verify` makes: serial backends once, the others with each number of threads; grids that take no M
     once, vector backends with each isa, every backend in the precisions that it has."""
-    runs = sum((1 if b["threads"] == "serial" else threads) * (len(listed["isas"]) if b["vector"] else 1) * len(b["precisions"])
+    plain = len(listed["plain_interactions"])
+    smoothed = (len(listed["interactions"]) - plain) * len(listed["smoothings"])
+    runs = sum((1 if b["threads"] == "serial" else threads) * (len(listed["isas"]) if b["vector"] else 1) *
+               sum(smoothed + (0 if p == "mixed" else plain) for p in b["precisions"])
                for b in listed["backends"] if b["unavailable"] is None)
     grids = len(listed["grids"]) + (M - 1) * len(listed["grids_with_M"])
-    plain = len(listed["plain_interactions"])
-    formulas = (len(listed["interactions"]) - plain) * len(listed["smoothings"]) + plain
-    return len(listed["dims"]) * formulas * grids * runs
+    return len(listed["dims"]) * grids * runs
 
 
 def schema_errors(path):
@@ -161,10 +162,25 @@ def test_grids_without_m_are_measured_once_and_have_no_m(pairsum, listed, tmp_pa
         assert re.search(rf"^symmetric_omp/{grid} .* rest +- +1 ", done.stdout, re.M), done.stdout
 
 
+def test_verify_leaves_out_what_nobody_asked_for_by_name(pairsum, listed):
+    """Of all precisions those that the backend takes; of all interactions those that the precision takes."""
+    done = pairsum("verify", "--dim", "3", "--dx", "0.1", "--M", "3", "--smoothing", listed["smoothings"][0], "--backend", "naive")
+    assert done.returncode == 0, done.stderr
+    assert "3D  double" in done.stdout and "3D  mixed" not in done.stdout
+    if "mixed" in listed["precisions"]:
+        words = ["--dim", "3", "--dx", "0.1", "--M", "3", "--smoothing", listed["smoothings"][0], "--precision", "mixed"]
+        done = pairsum("verify", *words)
+        assert done.returncode == 0, done.stderr
+        assert "3D  mixed" in done.stdout and "count" not in done.stdout
+        refused = pairsum("verify", *words, "--backend", "naive")
+        assert refused.returncode == 2 and "precision mixed, which is for interactions of real numbers on vector units" in refused.stderr
+
+
 def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
     out = tmp_path / "rows.jsonl"
     kernels = listed["smoothings"][:2]
-    factors = {"precision": listed["precisions"], "interaction": listed["interactions"], "smoothing": kernels,
+    precisions = next(b["precisions"] for b in listed["backends"] if b["name"] == "naive")
+    factors = {"precision": precisions, "interaction": listed["interactions"], "smoothing": kernels,
                "order": ["lattice", "shuffled", "morton"], "integrator": ["euler", "rk4"]}
     options = [text for name, words in factors.items() for text in (f"--{name}", ",".join(words))]
     done = pairsum("run", "--case", "random_clustered", "--dx", "0.2", "--M", "4", "--threads", "1", "--backend", "naive,symmetric",
@@ -173,7 +189,7 @@ def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
     points = [row["point"] for row in map(json.loads, out.read_text().splitlines()) if row["kind"] == "sample"]
     plain = len(listed["plain_interactions"])
     formulas = (len(listed["interactions"]) - plain) * len(kernels) + plain
-    assert len(points) == len({json.dumps(p, sort_keys=True) for p in points}) == 2 * 3 * 2 * formulas * len(listed["precisions"])
+    assert len(points) == len({json.dumps(p, sort_keys=True) for p in points}) == 2 * 3 * 2 * formulas * len(precisions)
     assert {p["smoothing"] for p in points if p["interaction"] == "count"} == {"none"}
     assert schema_errors(out) == []
     for words in [f"double, {listed['interactions'][-1]}", "rk4, order shuffled"]:

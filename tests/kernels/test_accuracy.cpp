@@ -140,14 +140,15 @@ bool near(double documented, double measured) { return documented <= 2 * measure
 
 TEST(accuracy, the_documented_table_is_what_is_measured) {
   const auto& precisions = registry::instance().precisions();
-  if (precisions.size() < 3) GTEST_SKIP() << "not every precision is built";
+  const auto has = [&](const char* word) { return std::ranges::count(precisions, word) > 0; };
+  if (!has("float")) GTEST_SKIP() << "float is not built";
   const auto rows = documented();
   std::ostringstream table;
   table.precision(2);
   bool same = true;
   for (const std::string& backend : backend_names()) {
     const accuracy_figures d = figures_of(backend, "double"), f = figures_of(backend, "float");
-    const double mixed = error_in_mixed(backend);
+    const double mixed = has("mixed") ? error_in_mixed(backend) : 0;
     const std::array<double, figures> measured{d.error, f.error, mixed, d.from_naive, f.from_naive};
     EXPECT_LT(d.error, 1e-13);
     EXPECT_LT(f.error, 1e-4);
@@ -162,7 +163,9 @@ TEST(accuracy, the_documented_table_is_what_is_measured) {
     table << "\n";
     const auto at = rows.find(backend);
     same = same && at != rows.end();
-    for (std::size_t k = 0; same && k < figures; ++k) same = near(at->second[k], measured[k]);
+    for (std::size_t k = 0; same && k < figures; ++k)
+      same = (k == 2 && !has("mixed")) || near(at->second[k], measured[k]) ||
+             (k == 3 && derives_itself && measured[k] < at->second[k]);  // where it fuses is the compiler's choice
   }
   EXPECT_TRUE(same) << "docs/accuracy.md should hold about these rows:\n" << table.str();
   EXPECT_EQ(rows.size(), backend_names().size());

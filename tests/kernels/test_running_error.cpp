@@ -130,6 +130,29 @@ int exponential_violations(long double scale) {
   return n;
 }
 
+/// Values in double with a bound for evaluation in float: how many of some evaluations are off by more than `share` of
+/// their bound?
+int violations_in_coarser_unit(double share) {
+  using coarse = running_error<double, float>;
+  const auto f = []<class T>(const T& a, const T& b, const T& c) {
+    return square_root(a * a + b * b) - T(1.1) * c / (a * b + T(30)) + maximum(a, c) * (b - c);
+  };
+  int violations = 0;
+  for (std::uint64_t seed = 0; seed < 10000; ++seed) {
+    const counter_random random(seed, 9);
+    double x[3];
+    for (std::uint64_t k = 0; k < 3; ++k) x[k] = random.uniform(k, -5, 5);
+    const coarse bounded = f(coarse(x[0]), coarse(x[1]), coarse(x[2]));
+    const double in_float = f(static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2]));
+    violations += !(std::abs(in_float - bounded.v) <= share * bounded.e);
+  }
+  return violations;
+}
+TEST(running_error, bound_holds_for_a_coarser_unit) { EXPECT_EQ(violations_in_coarser_unit(1), 0); }
+TEST(running_error, check_rejects_bounds_of_a_coarser_unit_that_are_too_small) {
+  EXPECT_GT(violations_in_coarser_unit(0.05), 0);
+}
+
 TEST(running_error, bound_holds_for_exponentials) { EXPECT_EQ(exponential_violations(1), 0); }
 TEST(running_error, check_rejects_bounds_of_exponentials_that_are_too_small) {
   EXPECT_GT(exponential_violations(0.2L), 0);

@@ -39,6 +39,25 @@ TEST_F(compared, backends_are_paired_by_round) {
   EXPECT_CONTAINS(compare("symmetric", "naive"), "slower in 1");
 }
 
+TEST_F(compared, backends_may_differ_in_levels_that_are_named) {
+  const auto mixed = [](sample& s) {
+    s.point.precision = "mixed";
+    s.point.grid = "compact_grid";
+    s.point.M = 0;
+  };
+  write({{"naive", 6, 1, 1.0}, {"naive", 7, 1, 1.2}, {"naive", 7, 1, 0.25, 6, mixed}});
+  const std::string text = compare("naive precision=double", "naive precision=mixed grid=compact_grid");
+  EXPECT_CONTAINS(text, "dam_break rest dx=0.00594 M=6/compact_grid threads=1");
+  EXPECT_CONTAINS(text, "6/6  1000.0  250.00  4.000  [4.000, 4.000]  faster\n");
+  EXPECT_CONTAINS(text, "Of 2 comparisons B is faster in 2");
+  EXPECT_CONTAINS(compare("naive M=7 precision=double", "naive M=none precision=mixed grid=compact_grid"),
+                  "Of 1 comparison B is faster in 1");
+  EXPECT_CONTAINS(message_of([&] { compare("naive", "naive precision=mixed"); }), "no point in common");
+  EXPECT_CONTAINS(message_of([&] { compare("naive", "naive precison=mixed"); }),
+                  "unknown level \"precison\"; valid: state, order, precision");
+  EXPECT_CONTAINS(message_of([&] { compare("naive", "naive mixed"); }), "\"mixed\" behind naive is no level");
+}
+
 TEST_F(compared, another_phase_can_be_asked_for) {
   write(talk());
   compare_request r{"naive", "symmetric", {file("talk")}};
