@@ -73,7 +73,7 @@ std::string message(F&& f) {
 }
 
 TEST(peaks, refuse_what_they_cannot_measure) {
-  EXPECT_EQ(message([] { measure_peaks("half", team()); }), "unknown precision \"half\"; valid: double, float");
+  EXPECT_EQ(message([] { measure_peaks("half", team()); }), "unknown precision \"half\"; valid: double, float, mixed");
   const workers tbb(runtime::tbb, 2);
   EXPECT_EQ(message([&] { measure_peaks("double", tbb.get()); }),
             "peaks are measured on a serial or an OpenMP team, not on oneTBB's");
