@@ -1,7 +1,8 @@
 #!/bin/sh
-# Builds with the preset asan and runs the tests that reach every part of the library and the program: run_asan.sh SOURCE BUILD PYTHON
+# Builds with the preset asan and runs tests of the library, of rows and of statistics, and the program: run_asan.sh SOURCE BUILD PYTHON
 # clang compiles sanitized templates in half the time of g++. Left out are tests that only repeat these on more particles, which take hours
-# here (the brute force of a verification is slow); verifications, studies and reports are reached through the program, in each command's usual way.
+# here (the brute force of a verification is slow); list, verify, run and report are called in their usual way.
+# Not reached: tune, compare, studies that are resumed or crash, interactions of one's own.
 set -eu
 source=$1 build=$2 python=$3
 kernels='formula_matrix|edge_cases|few_particles|clouds_test|symmetries|integrat|lost|counting_sort|reorderer|indexer|hashed_grid'
