@@ -161,12 +161,18 @@ std::string variant_of(const point& p) {
   return (chooses_isa(p) ? " " + p.isa : "") + (p.block == "none" || p.block == "auto" ? "" : " " + p.block);
 }
 
+/// The same of a point and its counterpart, which has it alone if only one of the two backends chooses.
+std::string variants_of(const point& p, const point& q) {
+  const std::string a = variant_of(p), b = variant_of(q);
+  return a == b || b.empty() ? a : a.empty() ? b : a + " /" + b;
+}
+
 /// What a point and its counterpart are, in the words that tell the pairs apart.
 std::string place(const point& p, const point& q, kind what, bool with_rare_words) {
   const auto both = [](const std::string& a, const std::string& b) { return a == b ? a : a + "/" + b; };
   return fmt::format("{}{} {} dx={} {} threads={}{}{}", what == kind::backends ? "" : p.backend + " ", p.case_name,
                      both(p.state, q.state), p.dx, both(cells_word(p), cells_word(q)),
-                     both(std::to_string(p.threads), std::to_string(q.threads)), variant_of(p),
+                     both(std::to_string(p.threads), std::to_string(q.threads)), variants_of(p, q),
                      with_rare_words ? " " + rare_words(p) : "");
 }
 

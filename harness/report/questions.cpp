@@ -67,6 +67,16 @@ std::string algorithm_of(const json& e, const char* key) {
   return name.ends_with(runtime) ? name.substr(0, name.size() - runtime.size()) : name;
 }
 
+/// What tells entries of backends with blocks apart: ", avx2, slab:4", of which only what is not the same in all.
+std::string variant(const json& e, const std::vector<json>& all) {
+  std::string text;
+  if (e.at("block") == "none") return text;
+  for (const char* key : {"isa", "block"})
+    if (std::ranges::any_of(all, [&](const json& o) { return o.at("block") != "none" && o.at(key) != e.at(key); }))
+      text += ", " + word(e.at(key));
+  return text;
+}
+
 /// Is the symmetric sum twice as fast? By the entries at equal M and the talk's second definition, on the most threads.
 void ask_twice(const json& summary, std::size_t series, json& out) {
   std::vector<json> entries = of_series(summary, "algorithm_speedup", series);
@@ -78,8 +88,9 @@ void ask_twice(const json& summary, std::size_t series, json& out) {
   for (const json& e : entries) {
     least = std::min(least, e.at("speedup").get<double>());
     most = std::max(most, e.at("speedup").get<double>());
-    texts.push_back(fmt::format("{} {} {} over {} {}: {}", runtime_word(e), algorithm_of(e, "base_backend"),
-                                cells(e, "base_M"), algorithm_of(e, "backend"), cells(e), with_bounds(e, "speedup")));
+    texts.push_back(fmt::format("{} {} {} over {} {}{}: {}", runtime_word(e), algorithm_of(e, "base_backend"),
+                                cells(e, "base_M"), algorithm_of(e, "backend"), cells(e), variant(e, entries),
+                                with_bounds(e, "speedup")));
   }
   const auto reaches = [](const json& e, double goal) {  // within its interval, if it has one
     return (e.at("high").is_number() ? e.at("high") : e.at("speedup")).get<double>() >= goal;

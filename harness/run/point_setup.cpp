@@ -7,14 +7,12 @@
 namespace pairsum::harness {
 namespace {
 
-/// Of a core's own cache, which blocks are to fit into; 0 if it is not known.
-std::size_t core_cache_bytes() {
-  static const std::size_t bytes = [] {
-    const auto caches = describe_machine().caches;
-    const auto at = caches.find("L2");
-    return at == caches.end() ? std::size_t{0} : static_cast<std::size_t>(at->second);
-  }();
-  return bytes;
+/// What blocks of cells are chosen by: a core's own cache, 0 if it is not known, and how many cores there are.
+void fit_to_machine(setup& s) {
+  static const machine here = describe_machine();
+  const auto cache = here.caches.find("L2");
+  s.cache_bytes = cache == here.caches.end() ? 0 : static_cast<std::size_t>(cache->second);
+  s.cores = static_cast<std::size_t>(here.cores);
 }
 
 /// The words of a point, in the world of `s`.
@@ -27,7 +25,7 @@ setup named(const point& p, setup s, const registry& all) {
   if (p.M > 0) s.M = p.M;
   if (all.find_backend(p.backend).traits.vector) s.isa = p.isa;
   if (p.block != no_block) s.block = p.block;
-  s.cache_bytes = core_cache_bytes();
+  fit_to_machine(s);
   return s;
 }
 

@@ -33,7 +33,7 @@ struct naive_tiles_omp {
   struct workspace : tile_workspace<I, false> {
     template <class Probe>
     void sum(const problem<I>& p, const team& t, Probe& probe) {
-      this->check_team(t);
+      this->begin_sum(t);
       const granularity g = t.granularity_or(traits.loop);
       probe.pass_begins(0);
 #pragma omp parallel num_threads(t.threads())

@@ -36,7 +36,7 @@ struct tiles_tbb {
   struct workspace : tile_workspace<I, true> {
     template <class Probe>
     void sum(const problem<I>& p, const team& t, Probe& probe) {
-      this->check_team(t);
+      this->begin_sum(t);
       const granularity g = t.granularity_or(traits.loop);
       t.arena().arena.execute([&] {
         for (unsigned colour = 0; colour < this->colours(); ++colour)

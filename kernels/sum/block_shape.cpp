@@ -38,7 +38,7 @@ block_shape block_shape::parse(const std::string& word) {
     throw error("block must be auto, slab:N, pencil:N or brick:N with N from 2 to " + std::to_string(widest) +
                 " cells, and :rows or :morton if its cells are to be in another order than bundles, is \"" + word +
                 "\"");
-  return {static_cast<int>(name - shape_names.begin()) + 1, width, false,
+  return {static_cast<int>(name - shape_names.begin()) + 1, width,
           static_cast<cell_order>(order - order_names.begin())};
 }
 
@@ -46,18 +46,6 @@ std::string block_shape::word() const {
   std::string w = std::string(shape_names[static_cast<std::size_t>(axes) - 1]) + ":" + std::to_string(width);
   if (order != cell_order::bundles) w += ":" + std::string(order_names[static_cast<std::size_t>(order)]);
   return w;
-}
-
-block_shape block_shape::fitting(int dim, std::size_t cache_bytes, std::size_t bytes_per_cell) {
-  const std::size_t room = (cache_bytes > 0 ? cache_bytes : std::size_t{1} << 20) / 2 / bytes_per_cell;
-  int width = 2;
-  const auto touched = [&](int w) {
-    std::size_t n = 1;
-    for (int d = 0; d < dim; ++d) n *= static_cast<std::size_t>(w + 2);
-    return n;
-  };
-  while (width < 16 && touched(2 * width) <= room) width *= 2;
-  return {3, width, true};
 }
 
 void check_block(const std::string& word) {

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstddef>
 #include <string>
 
 namespace pairsum {
@@ -15,7 +14,6 @@ enum class cell_order {
 struct block_shape {
   int axes = 3;
   int width = 2;
-  bool adapts = false;  ///< narrower where it does not fit
   cell_order order = cell_order::bundles;
   bool operator==(const block_shape&) const = default;
 
@@ -24,10 +22,6 @@ struct block_shape {
   static block_shape parse(const std::string& word);
   /// The word that parse() takes.
   std::string word() const;
-  /// The widest bricks whose cells, with those around them, take half the cache.
-  /// @param cache_bytes    of a core; 0: 1 MiB
-  /// @param bytes_per_cell what a sum touches of a cell
-  static block_shape fitting(int dim, std::size_t cache_bytes, std::size_t bytes_per_cell);
 };
 
 /// Throws pairsum::error unless the word is `auto` or a shape.

@@ -40,15 +40,13 @@ void cell_blocks<D>::build(const cells<D>& c) {
       std::equal(c.place.begin() + 1, end, place_.begin() + 1))
     return;
   place_.clear();  // until all is done
+  if (limits_) shape_ = choose_block(c, *limits_);
   const int axes = std::min(shape_.axes, D);
   // On a torus of 2^M cells the blocks must be as wide each, and their colours must alternate all the way round.
-  std::int64_t width = shape_.width;
-  if (shape_.adapts && c.period > 0) width = std::min(width, c.period / 2);
-  if (!one_pass_ && c.period % (2 * width) != 0)
-    throw error("blocks of " + std::to_string(width) + " cells do not go round a torus of " + std::to_string(c.period) +
-                " cells in two colours: take a power of two up to " + std::to_string(c.period / 2) +
-                ", or a grid that takes no M");
-  width_ = static_cast<int>(width);
+  if (!one_pass_ && c.period % (2 * shape_.width) != 0)
+    throw error("blocks of " + std::to_string(shape_.width) + " cells do not go round a torus of " +
+                std::to_string(c.period) + " cells in two colours: take a power of two up to " +
+                std::to_string(c.period / 2) + ", or a grid that takes no M");
   find_strands(c, axes);
   begin_.assign(one_pass_ ? 1 : std::size_t{1} << axes, {});
   std::uint32_t position = 0;
@@ -85,9 +83,9 @@ void cell_blocks<D>::find_strands(const cells<D>& c, int axes) {
     ivec<D> in_block{}, in_strand{};
     for (int d = 0; d < D; ++d) {
       const bool cut = d >= D - axes;
-      in_block[d] = cut ? at[d] / width_ : 0;
+      in_block[d] = cut ? at[d] / shape_.width : 0;
       in_strand[d] = in_block[d];
-      if (bundled && d > 0) in_strand[d] = cut ? in_block[d] * width_ + at[d] % width_ / 2 : at[d] / 2;
+      if (bundled && d > 0) in_strand[d] = cut ? in_block[d] * shape_.width + at[d] % shape_.width / 2 : at[d] / 2;
     }
     if (cell == 1 || in_strand != last) {
       const auto [entry, is_new] = strand_at.try_emplace(in_strand, static_cast<std::uint32_t>(strands_.size()));

@@ -1,11 +1,12 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "grid/cells.hpp"
-#include "sum/block_shape.hpp"
+#include "sum/block_choice.hpp"
 
 namespace pairsum {
 
@@ -24,8 +25,14 @@ class cell_blocks {
   /// `one_pass`: for sums that write their own cells alone; all blocks have one colour then.
   void shape(const block_shape& s, bool one_pass = false) {
     shape_ = s;
+    limits_.reset();
     one_pass_ = one_pass;
     place_.clear();
+  }
+  /// As choose_block() finds best for the cells.
+  void shape(const block_limits& limits, bool one_pass = false) {
+    shape(block_shape(), one_pass);
+    limits_ = limits;
   }
 
   /// Does nothing if the cells are those of the last call. Throws pairsum::error if blocks of two colours do not fit on
@@ -33,7 +40,7 @@ class cell_blocks {
   void build(const cells<D>& c);
 
   /// As built last: it fits the grid and the dimension.
-  block_shape shape() const { return {std::min(shape_.axes, D), width_, false, shape_.order}; }
+  block_shape shape() const { return {std::min(shape_.axes, D), shape_.width, shape_.order}; }
   unsigned colours() const { return static_cast<unsigned>(begin_.size()); }
   /// Blocks of a colour.
   std::size_t size(unsigned colour) const { return begin_[colour].size() - 1; }
@@ -57,8 +64,8 @@ class cell_blocks {
   static std::vector<std::uint32_t> along_first_axis(const cells<D>& c);
 
   block_shape shape_;
+  std::optional<block_limits> limits_;
   bool one_pass_ = false;
-  int width_ = 0;
   std::vector<std::vector<std::uint32_t>> begin_;  ///< by colour: where in order_ its blocks begin, and the end
   std::vector<block> blocks_;
   std::vector<strand> strands_;

@@ -89,7 +89,7 @@ class alignas(4096) hit_batch {
   HWY_INLINE void add(std::uint32_t i, std::uint32_t* end) {
     const index_tag d;
     constexpr std::size_t L = hn::MaxLanes(d);
-    for (std::size_t k = 0; k < N; k += L) hn::StoreU(hn::Iota(d, static_cast<std::uint32_t>(spare_ + k)), d, end + k);
+    for (std::size_t k = 0; k < N; k += L) hn::StoreU(numbered_from(d, spare_ + k), d, end + k);
     const std::size_t vectors = (static_cast<std::size_t>(end - free()) + N - 1) / N;
     for (std::size_t k = 0; k < vectors; k += L) {
       hn::StoreU(hn::Set(d, static_cast<std::uint32_t>(n_)), d, of_ + vectors_ + k);

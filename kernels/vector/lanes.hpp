@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <cstddef>
 #include <type_traits>
 
 #include "core/value.hpp"
@@ -20,6 +21,17 @@ using lane_vector = hn::Vec<lane_tag<R>>;
 /// Lanes of R in a vector of the instruction set this is compiled for.
 template <class R>
 inline constexpr std::size_t lane_count = hn::MaxLanes(lane_tag<R>());
+
+/// first, first + 1, ... Unless it knows `first` when compiling, Highway stores lane by lane and loads a vector, which
+/// 16 lanes wait for; few lanes are slower when added up (by 10 % of a sum with SSE4).
+template <class D>
+HWY_INLINE hn::Vec<D> numbered_from(D d, std::size_t first) {
+  const auto from = static_cast<hn::TFromD<D>>(first);
+  if constexpr (HWY_CAP_GE512)
+    return hn::Add(hn::Iota(d, 0), hn::Set(d, from));
+  else
+    return hn::Iota(d, from);
+}
 
 template <class V>
 struct lanes {

@@ -104,7 +104,7 @@ class alignas(4096) nearby {
       square = hn::MulAdd(x, x, square);
     }
     hn::StoreU(square, d, square_ + slot);
-    hn::StoreU(hn::Iota(du, static_cast<std::uint32_t>(j)), du, index_ + slot);
+    hn::StoreU(numbered_from(du, j), du, index_ + slot);
   }
 
   /// How far from the origin a particle may be, per component, in units of the reach. Then those in its reach are less

@@ -21,6 +21,15 @@ HWY_INLINE hn::Vec<D> load(D d, const R* from, std::size_t stride, const std::ui
   constexpr std::size_t n = hn::MaxLanes(D());
   if constexpr (n == piece<R>) {
     return hn::LoadU(d, from + index[0] * stride);
+#if HWY_CAP_GE512
+  } else if constexpr (n == 4 * piece<R> && sizeof(R) == 4) {
+    // Straight from memory to where a piece belongs; halves that are joined in registers take the unit that transposes.
+    const auto at = [&](std::size_t k) HWY_ATTR { return _mm_loadu_ps(from + index[k * piece<R>] * stride); };
+    __m512 v = _mm512_castps128_ps512(at(0));
+    v = _mm512_mask_broadcast_f32x4(v, 0x00f0, at(1));
+    v = _mm512_mask_broadcast_f32x4(v, 0x0f00, at(2));
+    return hn::Vec<D>{_mm512_mask_broadcast_f32x4(v, 0xf000, at(3))};
+#endif
   } else {
     const hn::Half<D> half;
     return hn::Combine(d, load(half, from, stride, index + n / 2), load(half, from, stride, index));
@@ -128,12 +137,26 @@ HWY_INLINE void transpose(V (&v)[4]) {
 /// padded(n).
 template <std::size_t n, class R>
 HWY_INLINE void load_rows(const R* rows, std::size_t stride, const std::uint32_t* index, lane_vector<R> (&values)[n]) {
-  constexpr std::size_t P = rows_detail::piece<R>;
-  for (std::size_t first = 0; first < n; first += P) {
-    lane_vector<R> v[P];
-    for (std::size_t r = 0; r < P; ++r) v[r] = rows_detail::load(lane_tag<R>(), rows + first, stride, index + r);
-    rows_detail::transpose(v);
-    for (std::size_t b = 0; b < P && first + b < n; ++b) values[first + b] = v[b];
+  constexpr std::size_t P = rows_detail::piece<R>, blocks = (n + P - 1) / P;
+  // With 32 registers all blocks of a row are loaded while its address is at hand; with 16 that is slower.
+  if constexpr (HWY_CAP_GE512) {
+    lane_vector<R> v[blocks][P];
+#pragma GCC unroll 16
+    for (std::size_t r = 0; r < P; ++r)
+#pragma GCC unroll 16
+      for (std::size_t b = 0; b < blocks; ++b)
+        v[b][r] = rows_detail::load(lane_tag<R>(), rows + b * P, stride, index + r);
+#pragma GCC unroll 16
+    for (auto& block : v) rows_detail::transpose(block);
+#pragma GCC unroll 64
+    for (std::size_t k = 0; k < n; ++k) values[k] = v[k / P][k % P];
+  } else {
+    for (std::size_t first = 0; first < n; first += P) {
+      lane_vector<R> v[P];
+      for (std::size_t r = 0; r < P; ++r) v[r] = rows_detail::load(lane_tag<R>(), rows + first, stride, index + r);
+      rows_detail::transpose(v);
+      for (std::size_t b = 0; b < P && first + b < n; ++b) values[first + b] = v[b];
+    }
   }
 }
 

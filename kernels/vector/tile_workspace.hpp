@@ -39,9 +39,10 @@ class tile_workspace {
   /// Throws pairsum::error for an isa or a block that is not to be had.
   void configure(const setup& s) {
     check_block(s.block);
-    blocks_.shape(s.block == "auto" ? block_shape::fitting(s.dim, s.cache_bytes, bytes_per_cell(s.dim))
-                                    : block_shape::parse(s.block),
-                  !symmetric);
+    if (s.block == "auto")
+      blocks_.shape(limits_of(s.cache_bytes, bytes_per_cell(s.dim), s.cores), !symmetric);
+    else
+      blocks_.shape(block_shape::parse(s.block), !symmetric);
     check_isa(s.isa);
     excess_ = excess_in(s);
     tie_ = !is_mixed<I> || widest(s) < unfolded ? 16 * std::numeric_limits<value>::epsilon()
@@ -67,6 +68,7 @@ class tile_workspace {
       throw error("vector backends take at most 2^31 - 1 particles in float or mixed precision, got " +
                   std::to_string(p.count));
     threads_ = t.threads();
+    rows_are_zero_ = true;
     blocks_.build(p.cells());
     if (kernel_) {
       rows_.resize((p.fluid_count + spare) * row_bytes);
@@ -83,8 +85,10 @@ class tile_workspace {
     }
   }
 
-  /// The rates of rows to 0; gathers add to the columns.
+  /// The rates to 0: those of rows, which are 0 from prepare() on until they are summed, or of gathers, which add to the
+  /// columns.
   void zero(const problem<I>& p, const team& t) {
+    if (symmetric && kernel_ && rows_are_zero_) return;
     const tiles view = view_of(p);
     t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -96,11 +100,13 @@ class tile_workspace {
     });
   }
 
-  /// Every thread needs spare rows. Throws pairsum::error for a team larger than that of prepare().
-  void check_team(const team& t) const {
+  /// To be called before the first block of a sum. Every thread needs spare rows: throws pairsum::error for a team larger
+  /// than that of prepare().
+  void begin_sum(const team& t) {
     if (t.threads() > threads_)
       throw error("prepared for " + std::to_string(threads_) + " threads, but to be summed on " +
                   std::to_string(t.threads()));
+    rows_are_zero_ = false;
   }
 
   /// Sums the cells of a block on thread `thread` of the team.
@@ -170,6 +176,7 @@ class tile_workspace {
         row[d] = state.x[d];
     }
     each_scalar(p.formula->derive(state), [&](const real& a, int k) { row[I::dim + k] = static_cast<value>(a); });
+    std::fill_n(view.rates_of_row(i), tiles::rates, real(0));
   }
 
   /// Omega's longest edge, in units of the reach.
@@ -226,6 +233,7 @@ class tile_workspace {
   value tie_ = 0;
   bool rounds_alike_ = true;
   int threads_ = 0;
+  bool rows_are_zero_ = false;
 };
 
 }  // namespace pairsum

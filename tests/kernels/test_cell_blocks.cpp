@@ -24,7 +24,7 @@ std::vector<shaped_grid> every_shape() {
       for (const int width : {2, 3, 4})
         if (grid.M == 0 || (1 << grid.M) % (2 * width) == 0)
           for (const cell_order order : {cell_order::rows, cell_order::bundles, cell_order::morton})
-            if (order == cell_order::bundles || width == 4) all.push_back({grid, {axes, width, false, order}});
+            if (order == cell_order::bundles || width == 4) all.push_back({grid, {axes, width, order}});
   return all;
 }
 
@@ -83,7 +83,7 @@ TEST_P(cell_blocks_test, merged_colours_are_detected) {
 TEST(cell_blocks, one_pass_has_them_all) {
   const indexed_scene s(make_scene("dam_break", 0.05, "rest"), 3);
   cell_blocks<3> blocks;
-  blocks.shape({3, 3}, true);
+  blocks.shape(block_shape{3, 3}, true);
   blocks.build(s.index.view());
   ASSERT_EQ(blocks.colours(), 1u);
   std::set<std::uint32_t> seen;
@@ -91,15 +91,15 @@ TEST(cell_blocks, one_pass_has_them_all) {
   EXPECT_EQ(seen.size(), s.index.view().fluid_cells);
 }
 
-TEST(cell_blocks, what_does_not_go_round_a_torus_is_refused_or_narrowed) {
+TEST(cell_blocks, what_does_not_go_round_a_torus_is_refused_or_not_chosen) {
   const indexed_scene s(make_scene("dam_break", 0.08, "rest"), 3);
   cell_blocks<3> blocks;
-  blocks.shape({1, 3});
+  blocks.shape(block_shape{1, 3});
   EXPECT_EQ(
       error_of([&] { blocks.build(s.index.view()); }),
       "blocks of 3 cells do not go round a torus of 8 cells in two colours: take a power of two up to 4, or a grid "
       "that takes no M");
-  blocks.shape({1, 16, true});
+  blocks.shape(block_limits{1 << 20, 1});
   EXPECT_EQ(error_of([&] { blocks.build(s.index.view()); }), "");
 }
 
@@ -120,7 +120,7 @@ TEST(cell_blocks, cells_are_visited_in_the_order_asked_for) {
   cell_blocks<3> blocks;
   using at = std::array<int, 3>;
   const auto first = [&](cell_order order) {
-    blocks.shape({3, 4, false, order});
+    blocks.shape(block_shape{3, 4, order});
     blocks.build(c);
     auto p = places(c, blocks);
     EXPECT_EQ(p.size(), 64u);
@@ -145,7 +145,7 @@ TEST(cell_blocks, follow_cells_that_move) {
   c.place[1] = ivec<3>{0, 0, 0};
   c.place[2] = ivec<3>{0, 0, 9};
   cell_blocks<3> blocks;
-  blocks.shape({1, 2});
+  blocks.shape(block_shape{1, 2});
   blocks.build(c);
   EXPECT_EQ(blocks.size(0), 2u);
   c.place[2] = ivec<3>{0, 0, 1};
@@ -153,7 +153,7 @@ TEST(cell_blocks, follow_cells_that_move) {
   EXPECT_EQ(blocks.size(0), 1u);
   c.period = 6;  // 3 blocks go round, which two colours cannot
   EXPECT_TRUE(says(error_of([&] { blocks.build(c); }), {"do not go round a torus of 6 cells"}));
-  blocks.shape({1, 2}, true);
+  blocks.shape(block_shape{1, 2}, true);
   blocks.build(c);
   EXPECT_EQ(blocks.colours(), 1u);
 }
@@ -168,7 +168,7 @@ TEST(cell_blocks, few_cells_of_a_wide_world) {
   c.place[3] = ivec<3>{7, 1, 1};
   for (const cell_order order : {cell_order::bundles, cell_order::morton}) {
     cell_blocks<3> blocks;
-    blocks.shape({1, 2, false, order});
+    blocks.shape(block_shape{1, 2, order});
     blocks.build(c);
     ASSERT_EQ(blocks.size(0), 1u);
     const auto visited = blocks(0, 0);
@@ -182,7 +182,7 @@ TEST(cell_blocks, say_what_was_made) {
   c.resize_fluid();
   c.place[1] = ivec<1>{0};
   cell_blocks<1> blocks;
-  blocks.shape({3, 4, true});
+  blocks.shape(block_shape{3, 4});
   blocks.build(c);
   EXPECT_EQ(blocks.shape().word(), "slab:4");
 }
@@ -191,7 +191,7 @@ TEST(block_shape, is_read) {
   EXPECT_EQ(block_shape::parse("slab:2"), (block_shape{1, 2}));
   EXPECT_EQ(block_shape::parse("pencil:16"), (block_shape{2, 16}));
   EXPECT_EQ(block_shape::parse("brick:4096"), (block_shape{3, 4096}));
-  EXPECT_EQ(block_shape::parse("brick:4:morton"), (block_shape{3, 4, false, cell_order::morton}));
+  EXPECT_EQ(block_shape::parse("brick:4:morton"), (block_shape{3, 4, cell_order::morton}));
   for (const char* word : {"slab:2", "pencil:16:rows", "brick:3:morton"})
     EXPECT_EQ(block_shape::parse(word).word(), word);
   EXPECT_EQ(block_shape::parse("slab:2:bundles").word(), "slab:2");
@@ -199,13 +199,6 @@ TEST(block_shape, is_read) {
                             "slab:2:", "slab:2:hilbert", "slab:2:rows:rows", ":2", "slab::rows"})
     EXPECT_TRUE(says(error_of([&] { block_shape::parse(wrong); }), {"block must be auto, slab:N", wrong})) << wrong;
   EXPECT_EQ(error_of([] { check_block("auto"); }), "");
-}
-
-TEST(block_shape, fits_the_cache) {
-  EXPECT_EQ(block_shape::fitting(3, 2 << 20, 1216).width, 4);
-  EXPECT_EQ(block_shape::fitting(3, 8 << 20, 1216).width, 8);
-  EXPECT_EQ(block_shape::fitting(3, 1, 1216).width, 2);
-  EXPECT_EQ(block_shape::fitting(2, 2 << 20, 600).width, 16);
 }
 
 }  // namespace

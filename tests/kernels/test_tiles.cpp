@@ -242,6 +242,24 @@ TEST_P(tiles_test, a_larger_team_than_prepared_is_refused) {
   EXPECT_EQ(error_of([&] { sum->sum(one.get()); }), "");
 }
 
+/// prepare() leaves rates at 0, so zero() has something to do only if they were summed since.
+TEST_P(tiles_test, zero_begins_anew) {
+  const scene s = make_scene("dam_break", 0.08, "perturbed");
+  const setup world = with(s.world, GetParam(), 4);
+  const auto sum = registry::instance().make_summation(world);
+  const workers some(sum->traits().threads, 2);
+  sum->load(s.particles, {});
+  sum->evaluate(some.get());
+  const auto once = sum->fingerprint();
+  sum->zero(some.get());
+  sum->sum(some.get());
+  sum->reduce(some.get());
+  EXPECT_EQ(sum->fingerprint(), once);
+  sum->sum(some.get());
+  sum->reduce(some.get());
+  EXPECT_NE(sum->fingerprint(), once) << "summed twice";
+}
+
 /// OpenMP and oneTBB go over the same blocks in the same order.
 TEST(tiles, agree_to_the_bit) {
   const scene s = make_scene("dam_break", 0.045, "perturbed");

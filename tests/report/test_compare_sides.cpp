@@ -58,6 +58,16 @@ TEST_F(compared, backends_may_differ_in_levels_that_are_named) {
   EXPECT_CONTAINS(message_of([&] { compare("naive", "naive mixed"); }), "\"mixed\" behind naive is no level");
 }
 
+TEST_F(compared, blocks_of_one_side_alone_tell_the_pairs_apart) {
+  const auto in = [](const char* block) { return [=](sample& s) { s.point.block = block; }; };
+  write(
+      {{"naive_omp", 7, 2, 1.0}, {"tiles_omp", 7, 2, 0.5, 6, in("auto")}, {"tiles_omp", 7, 2, 0.25, 6, in("slab:4")}});
+  const std::string text = compare("naive_omp", "tiles_omp");
+  EXPECT_CONTAINS(text, "M=7 threads=2 slab:4  6/6  1050.0  262.50  4.000");
+  EXPECT_CONTAINS(text, "M=7 threads=2         6/6  1050.0  525.00  2.000");
+  EXPECT_CONTAINS(compare("tiles_omp", "naive_omp"), "M=7 threads=2 slab:4  6/6  262.50  1050.0  0.250");
+}
+
 TEST_F(compared, another_phase_can_be_asked_for) {
   write(talk());
   compare_request r{"naive", "symmetric", {file("talk")}};

@@ -36,6 +36,28 @@ TEST_F(questions_of, several_speedups_are_said_as_a_range) {
   EXPECT_CONTAINS(answer_to(s, "Is the symmetric"), "No, 1.12 to 1.50 times, on 1 thread");
 }
 
+/// Points that differ in the instruction set or in the blocks alone are told apart by them; what is the same in all is
+/// not repeated.
+TEST_F(questions_of, blocks_and_instruction_sets_tell_speedups_apart) {
+  const auto with = [](const char* isa, const char* block) {
+    return [=](sample& s) { s.point.isa = isa, s.point.block = block; };
+  };
+  const std::string one = answer_to(summary_of({{"naive_tiles_omp", 7, 2, 1.0, 6, with("avx2", "auto")},
+                                                {"tiles_omp", 7, 2, 0.8, 6, with("avx2", "auto")}}),
+                                    "Is the symmetric");
+  EXPECT_CONTAINS(one, "naive_tiles M = 7 over tiles M = 7: 1.25");
+  const std::string two = answer_to(summary_of({{"naive_omp", 7, 2, 2.0},
+                                                {"symmetric_omp", 7, 2, 1.5},
+                                                {"naive_tiles_omp", 7, 2, 1.0, 6, with("avx2", "auto")},
+                                                {"tiles_omp", 7, 2, 0.8, 6, with("avx2", "auto")},
+                                                {"naive_tiles_omp", 7, 2, 1.0, 6, with("avx2", "slab:4")},
+                                                {"tiles_omp", 7, 2, 0.5, 6, with("avx2", "slab:4")}}),
+                                    "Is the symmetric");
+  EXPECT_CONTAINS(two, "naive M = 7 over symmetric M = 7: 1.33");
+  EXPECT_CONTAINS(two, "naive_tiles M = 7 over tiles M = 7, auto: 1.25");
+  EXPECT_CONTAINS(two, "naive_tiles M = 7 over tiles M = 7, slab:4: 2.00");
+}
+
 TEST_F(questions_of, not_faster_is_said) {
   const json s = summary_of({{"naive", 7, 1, 1.0}, {"symmetric", 7, 1, 1.25}});
   EXPECT_CONTAINS(answer_to(s, "Is the symmetric"), "No, it is not faster");
