@@ -11,6 +11,7 @@
 
 #include "build_info.hpp"
 #include "harness/environment/machine.hpp"
+#include "harness/rows/hash_text.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -21,12 +22,6 @@ std::string compiler() {
 #else
   return fmt::format("GNU {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
 #endif
-}
-
-std::string hash_text(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
-  for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001b3u;
-  return fmt::format("{:016x}", hash);
 }
 
 std::map<std::string, std::string> libraries() {

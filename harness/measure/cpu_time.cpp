@@ -31,13 +31,17 @@ std::optional<double> share_of_others(const std::optional<machine_time>& before,
   return std::clamp(others / (after->total_s - before->total_s), 0.0, 1.0);
 }
 
-double own_time() {
-  rusage use{};
-  getrusage(RUSAGE_SELF, &use);
+double cpu_time_of(const rusage& use) {
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
   return seconds(use.ru_utime) + seconds(use.ru_stime);
+}
+
+double own_time() {
+  rusage use{};
+  getrusage(RUSAGE_SELF, &use);
+  return cpu_time_of(use);
 }
 
 }  // namespace pairsum::harness

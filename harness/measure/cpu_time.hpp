@@ -1,4 +1,6 @@
 #pragma once
+#include <sys/resource.h>
+
 #include <optional>
 
 namespace pairsum::harness {
@@ -16,6 +18,9 @@ std::optional<machine_time> machine_time_now();
 /// empty if a reading is, or if they are the same.
 std::optional<double> share_of_others(const std::optional<machine_time>& before,
                                       const std::optional<machine_time>& after, double own_s);
+
+/// Processor time that the kernel counted, in the program and in itself [s].
+double cpu_time_of(const rusage& use);
 
 /// Processor time this process has used, its threads included [s].
 double own_time();

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "harness/plan/levels.hpp"
+#include "harness/rows/hash_text.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -146,9 +147,7 @@ json plan_json(const study_plan& plan) {
 std::string plan_hash(const study_plan& plan) {
   json j = plan_json(plan);
   j.erase("budget_s");
-  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
-  for (const unsigned char c : j.dump()) hash = (hash ^ c) * 0x100000001b3u;
-  return fmt::format("{:016x}", hash);
+  return hash_text(j.dump());
 }
 
 void check_plan(const study_plan& plan, const registry& all) {

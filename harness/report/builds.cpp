@@ -1,13 +1,10 @@
 #include "harness/report/builds.hpp"
 
-#include <tuple>
+#include "core/names.hpp"
+#include "harness/rows/same_build.hpp"
 
 namespace pairsum::harness {
 namespace {
-
-auto identity(const environment_row& e) {
-  return std::tie(e.host, e.cpu, e.compiler, e.flags, e.git, e.dirty, e.binding);
-}
 
 std::string revision(const environment_row& e) { return e.git + (e.dirty ? " with uncommitted changes" : ""); }
 
@@ -16,16 +13,14 @@ void add_difference(std::string& text, const std::vector<environment_row>& known
   std::set<std::string> values;
   for (const environment_row& e : known) values.insert(get(e));
   if (values.size() < 2) return;
-  std::string list;
-  for (const std::string& value : values) list += (list.empty() ? "" : ", ") + value;
-  text += (text.empty() ? "" : ", ") + std::string(name) + " (" + list + ")";
+  text += (text.empty() ? "" : ", ") + std::string(name) + " (" + join(values) + ")";
 }
 
 }  // namespace
 
 std::size_t builds::add(const environment_row& e) {
   for (std::size_t i = 0; i < known_.size(); ++i)
-    if (identity(known_[i]) == identity(e)) return i;
+    if (same_build(known_[i], e)) return i;
   known_.push_back(e);
   return known_.size() - 1;
 }

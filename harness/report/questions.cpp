@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/names.hpp"
 #include "harness/report/answer.hpp"
 #include "harness/report/self_tests.hpp"
 #include "harness/report/text_table.hpp"
@@ -46,12 +47,6 @@ std::string with_bounds(const json& e, const char* key) {
 std::string range_of(double least, double most) {
   const std::string from = fmt::format("{:.2f}", least), to = fmt::format("{:.2f}", most);
   return from == to ? from : from + " to " + to;
-}
-
-std::string list_of(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& t : texts) all += (all.empty() ? "" : ", ") + t;
-  return all;
 }
 
 std::string threads_text(int n) { return fmt::format("{} thread{}", n, n == 1 ? "" : "s"); }
@@ -104,7 +99,7 @@ void ask_twice(const json& summary, std::size_t series, json& out) {
       {{"question", "Is the symmetric sum twice as fast here?"},
        {"answer", fmt::format("{}, on {}: {}. Each pair is computed once instead of twice, but its distance is "
                               "tested and both particles are written{}.",
-                              verdict, threads_text(threads), list_of(texts),
+                              verdict, threads_text(threads), join(texts),
                               yes ? "" : ", so half the evaluations is not half the time")}});
 }
 
@@ -138,7 +133,7 @@ void ask_scaling(const json& summary, std::size_t series, json& out) {
       ++waits;
     }
   std::string text = fmt::format("On {} naive sums are {} times as fast as on one, symmetric sums {} times ({}).",
-                                 threads_text(threads), range(by_kind[false]), range(by_kind[true]), list_of(texts));
+                                 threads_text(threads), range(by_kind[false]), range(by_kind[true]), join(texts));
   if (machine.is_number())
     text += fmt::format(" The machine itself does {:.2f} times as many multiply-adds.", machine.get<double>());
   if (waits > 0)
@@ -159,8 +154,8 @@ std::string best_of(const std::map<int, json>& by_M) {
       tied.push_back(fmt::format("{}", M));
   }
   std::string text = fmt::format("M = {} ({} ms a step", best, ms(by_M.at(best).at("total_s")));
-  if (!slower.empty()) text += "; " + list_of(slower);
-  if (!tied.empty()) text += fmt::format("; no difference resolved from M = {}", list_of(tied));
+  if (!slower.empty()) text += "; " + join(slower);
+  if (!tied.empty()) text += fmt::format("; no difference resolved from M = {}", join(tied));
   return text + ")";
 }
 
@@ -171,7 +166,7 @@ std::string work_over_M(const std::map<int, json>& by_M) {
     if (e.at("cells_nonempty").is_number() && e.at("collision_share").is_number())
       texts.push_back(fmt::format("M = {}: {:.0f} % in {} cells", M, 100 * e.at("collision_share").get<double>(),
                                   e.at("cells_nonempty").get<std::uint64_t>()));
-  return list_of(texts);
+  return join(texts);
 }
 
 using over_M = std::map<int, json>;
@@ -213,7 +208,7 @@ void ask_M(const json& summary, std::size_t series, json& out) {
        {"answer", fmt::format("{}. A smaller M folds more cells together, and distances are tested in vain. A "
                               "larger one costs nothing in the sweep, because only cells that hold particles "
                               "are visited; what it costs is in the index, whose table has 2^(dM) entries.{}",
-                              list_of(texts), why)}});
+                              join(texts), why)}});
 }
 
 void ask_runtime(const json& summary, std::size_t series, json& out) {

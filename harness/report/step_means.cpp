@@ -1,17 +1,9 @@
 #include "harness/report/step_means.hpp"
 
-#include <algorithm>
+#include "harness/rows/add_thread_times.hpp"
 
 namespace pairsum::harness {
 namespace {
-
-void add_to(thread_times& sum, const thread_times& more) {
-  sum.resize(std::max(sum.size(), more.size()));
-  for (std::size_t pass = 0; pass < more.size(); ++pass) {
-    sum[pass].resize(std::max(sum[pass].size(), more[pass].size()));
-    for (std::size_t k = 0; k < more[pass].size(); ++k) sum[pass][k] += more[pass][k];
-  }
-}
 
 thread_times divided(thread_times t, std::size_t by) {
   for (auto& pass : t)

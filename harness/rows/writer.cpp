@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -101,16 +100,6 @@ std::size_t drop_cut_line(const std::filesystem::path& path) {
   std::filesystem::resize_file(path, keep, code);
   if (code) cannot_write(path, code.message());
   return text.size() - keep;
-}
-
-int last_round(const std::filesystem::path& path) {
-  if (!has_rows(path)) return 0;
-  const rows_file rows = read_rows(path);
-  int last = 0;
-  for (const sample& s : rows.samples) last = std::max(last, s.round);
-  for (const void_row& v : rows.voids) last = std::max(last, v.round);
-  for (const round_row& r : rows.rounds) last = std::max(last, r.round);
-  return last;
 }
 
 }  // namespace pairsum::harness

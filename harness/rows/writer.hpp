@@ -39,8 +39,4 @@ class row_writer {
 /// taken away; 0 if there is no file or nothing to mend. Throws like read_rows for any other fault.
 std::size_t drop_cut_line(const std::filesystem::path& path);
 
-/// The last round that the file names (its voided rounds too); 0 if there is no file or an empty
-/// one. Throws like read_rows.
-int last_round(const std::filesystem::path& path);
-
 }  // namespace pairsum::harness

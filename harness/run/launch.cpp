@@ -76,11 +76,8 @@ departure wait_for(pid_t child) {
     if (::wait4(child, &status, 0, &use) >= 0) break;
     if (errno != EINTR) throw error(fmt::format("cannot wait for a process: {}", std::strerror(errno)));
   }
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
   departure end;
-  end.cpu_s = seconds(use.ru_utime) + seconds(use.ru_stime);
+  end.cpu_s = cpu_time_of(use);
   if (WIFSIGNALED(status))
     end.signal = WTERMSIG(status);
   else

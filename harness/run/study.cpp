@@ -11,32 +11,22 @@
 #include "core/error.hpp"
 #include "harness/environment/environment.hpp"
 #include "harness/environment/machine.hpp"
-#include "harness/measure/binding.hpp"
-#include "harness/measure/counters.hpp"
 #include "harness/measure/cpu_time.hpp"
 #include "harness/measure/stopwatch.hpp"
+#include "harness/rows/same_build.hpp"
 #include "harness/rows/writer.hpp"
 #include "harness/run/estimate.hpp"
 #include "harness/run/file_lock.hpp"
 #include "harness/run/interrupt.hpp"
+#include "harness/run/own_environment.hpp"
 #include "harness/run/results_table.hpp"
 #include "harness/run/rows_so_far.hpp"
 #include "harness/run/worker.hpp"
+#include "harness/run/writable_file.hpp"
 #include "harness/verify/shared_store.hpp"
 
 namespace pairsum::harness {
 namespace {
-
-environment_row own_environment(const study_plan& plan, const std::string& binding) {
-  return describe_environment(plan.study, thread_binding(binding).description(), counters().description());
-}
-
-bool same_machine(const environment_row& a, const environment_row& b) { return a.host == b.host && a.cpu == b.cpu; }
-
-bool same_build(const environment_row& a, const environment_row& b) {
-  return same_machine(a, b) && a.compiler == b.compiler && a.flags == b.flags && a.git == b.git && a.dirty == b.dirty &&
-         a.binding == b.binding;
-}
 
 /// What differs, for the message.
 std::string other_build(const environment_row& there, const environment_row& here) {
@@ -46,35 +36,6 @@ std::string other_build(const environment_row& there, const environment_row& her
   };
   return fmt::format("{}; this is {}", say(there), say(here));
 }
-
-/// Makes the rows file, so that it can be locked and whatever keeps it from being written is told before anything is
-/// measured; takes it away again if it is new and no row came. (A study that is killed before its first row leaves an
-/// empty file.)
-class writable_file {
- public:
-  explicit writable_file(std::filesystem::path path)
-      : path_(std::move(path)), is_new_(!exists(path_)), folder_is_new_(is_new_ && !exists(folder())) {
-    row_writer make_it(path_);
-  }
-  ~writable_file() {
-    std::error_code code;
-    if (!is_new_ || std::filesystem::file_size(path_, code) != 0 || code) return;
-    std::filesystem::remove(path_, code);
-    if (folder_is_new_) std::filesystem::remove(folder(), code);  // only if nothing else is in it
-  }
-  writable_file(const writable_file&) = delete;
-  writable_file& operator=(const writable_file&) = delete;
-
- private:
-  static bool exists(const std::filesystem::path& p) {
-    std::error_code code;
-    return std::filesystem::exists(p, code);
-  }
-  std::filesystem::path folder() const { return path_.has_parent_path() ? path_.parent_path() : "."; }
-
-  std::filesystem::path path_;
-  bool is_new_, folder_is_new_;
-};
 
 class conductor {
  public:
@@ -368,28 +329,6 @@ class conductor {
 };
 
 }  // namespace
-
-std::filesystem::path rows_path(const std::filesystem::path& results, const study_plan& plan, bool fresh,
-                                const std::string& binding) {
-  const environment_row here = own_environment(plan, binding);
-  const std::filesystem::path folder = results / plan.study;
-  std::filesystem::path newest;
-  std::error_code code;
-  if (!fresh && !here.dirty)  // two builds with uncommitted changes cannot be told apart
-    for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
-      if (entry.path().extension() != ".jsonl" || entry.path() < newest) continue;
-      try {
-        const file_lock lock(entry.path());  // refused if it is being written
-        const rows_so_far rows(entry.path(), plan);
-        const auto& there = rows.rows().environments;
-        const bool ours = std::ranges::any_of(there, [&](const environment_row& e) { return same_build(e, here); });
-        if (rows.unended() && ours) newest = entry.path();
-      } catch (const error&) {  // no rows file, one of another version, or being written: nothing to resume
-      }
-    }
-  if (!newest.empty()) return newest;
-  return folder / fmt::format("{}-{}-{}.jsonl", here.host, utc_stamp(), here.git + (here.dirty ? "-dirty" : ""));
-}
 
 int conduct(const study_plan& plan, const study_options& options, const registry& all) {
   check_plan(plan, all);

@@ -11,6 +11,7 @@
 #include "harness/measure/pass_times.hpp"
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
+#include "harness/rows/add_thread_times.hpp"
 #include "harness/run/interrupt.hpp"
 #include "harness/run/point_setup.hpp"
 #include "integrators/integrator.hpp"
@@ -100,14 +101,9 @@ bool worse(const verifier::outcome& a, const verifier::outcome& b) {
   return a.max_rel_err * b.bound > b.max_rel_err * a.bound;
 }
 
-/// Adds b to a, entry by entry; a may be empty yet.
 void add_to(std::optional<thread_times>& a, const thread_times& b) {
-  if (!a) {
-    a = b;
-    return;
-  }
-  for (std::size_t pass = 0; pass < std::min(a->size(), b.size()); ++pass)
-    for (std::size_t k = 0; k < b[pass].size(); ++k) (*a)[pass][k] += b[pass][k];
+  if (!a) a.emplace();
+  harness::add_to(*a, b);
 }
 
 void add_to(std::optional<std::uint64_t>& a, const std::optional<std::uint64_t>& b) {

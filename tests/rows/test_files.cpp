@@ -44,17 +44,6 @@ TEST_F(rows_files, appending_keeps_the_rows) {
   EXPECT_EQ(read_rows(path).samples.size(), 3u);
 }
 
-TEST_F(rows_files, last_round_counts_voided_rounds) {
-  EXPECT_EQ(last_round(file("none.jsonl")), 0);
-  EXPECT_EQ(last_round(put("empty.jsonl", "")), 0);
-  const auto path = write_example();
-  EXPECT_EQ(last_round(path), 2);
-  void_row v = example::voided();
-  v.round = 5;
-  row_writer(path).write(v);
-  EXPECT_EQ(last_round(path), 5);
-}
-
 TEST_F(rows_files, only_samples_of_finished_rounds_are_valid) {
   const auto path = file("rows.jsonl");
   row_writer writer(path);
