@@ -115,28 +115,59 @@ double bandwidth(int threads, std::size_t bytes, double budget_s) {
   return 3 * static_cast<double>(lines * 64) / seconds;
 }
 
+/// Multiply-adds on all threads, some 20 ms of them at a time.
+template <class R>
+class multiply_add_pieces {
+ public:
+  explicit multiply_add_pieces(int threads) : threads_(threads) {
+    constexpr double piece_s = 0.02;
+    while (run() < piece_s / 2 && steps_ < std::uint64_t{1} << 40) steps_ *= 2;
+  }
+  /// One piece; its seconds.
+  double run() const {
+    return timed(threads_, [&](std::size_t) {
+      std::vector<R> values(peak_loops::multiply_add_width<R>(), R(1));
+      peak_loops::multiply_add(values, R(0.75), R(0.5), steps_);  // it tends to 2
+      asm volatile("" : : "r"(values.data()) : "memory");
+    });
+  }
+  double flops() const {
+    return 2.0 * static_cast<double>(steps_) * static_cast<double>(peak_loops::multiply_add_width<R>()) * threads_;
+  }
+
+ private:
+  int threads_;
+  std::uint64_t steps_ = 1 << 12;
+};
+
 template <class R>
 double flops(int threads, double budget_s) {
   const stopwatch clock;
-  constexpr double piece_s = 0.02;
-  std::uint64_t steps = 1 << 12;
-  const auto run = [&] {
-    return timed(threads, [&](std::size_t) {
-      std::vector<R> values(peak_loops::multiply_add_width<R>(), R(1));
-      peak_loops::multiply_add(values, R(0.75), R(0.5), steps);  // it tends to 2
-      asm volatile("" : : "r"(values.data()) : "memory");
-    });
-  };
-  while (run() < piece_s / 2 && steps < std::uint64_t{1} << 40) steps *= 2;
-  const double seconds = best_of(clock, budget_s, run);
-  return 2.0 * static_cast<double>(steps) * static_cast<double>(peak_loops::multiply_add_width<R>()) * threads /
-         seconds;
+  const multiply_add_pieces<R> pieces(threads);
+  return pieces.flops() / best_of(clock, budget_s, [&] { return pieces.run(); });
+}
+
+template <class R>
+double mean_flops(int threads, double budget_s) {
+  const multiply_add_pieces<R> pieces(threads);
+  double seconds = 0;
+  int n = 0;
+  for (; seconds < budget_s; ++n) seconds += pieces.run();
+  return n * pieces.flops() / seconds;
 }
 
 template <class R>
 peak_rates measure(int threads, const peak_limits& limits) {
   return {bandwidth<R>(threads, triad_array_bytes(limits.last_level_cache_bytes), 0.7 * limits.budget_s),
           flops<R>(threads, 0.3 * limits.budget_s)};
+}
+
+/// Else they are in float. Throws pairsum::error for another precision, or threads that the loops do not run on.
+bool pairs_in_double(const std::string& precision, const team& t) {
+  if (t.kind() == runtime::tbb) throw error("peaks are measured on a serial or an OpenMP team, not on oneTBB's");
+  check_word("precision", precision,
+             std::vector<std::string_view>{precision_name<double>(), precision_name<float>(), mixed_precision});
+  return precision == precision_name<double>();
 }
 
 }  // namespace
@@ -185,11 +216,12 @@ std::size_t triad_array_bytes(std::uint64_t last_level_cache_bytes) {
 }
 
 peak_rates measure_peaks(const std::string& precision, const team& t, const peak_limits& limits) {
-  if (t.kind() == runtime::tbb) throw error("peaks are measured on a serial or an OpenMP team, not on oneTBB's");
-  check_word("precision", precision,
-             std::vector<std::string_view>{precision_name<double>(), precision_name<float>(), mixed_precision});
-  return precision == precision_name<double>() ? measure<double>(t.threads(), limits)
-                                               : measure<float>(t.threads(), limits);
+  return pairs_in_double(precision, t) ? measure<double>(t.threads(), limits) : measure<float>(t.threads(), limits);
+}
+
+double measure_multiply_adds(const std::string& precision, const team& t, double budget_s) {
+  return pairs_in_double(precision, t) ? mean_flops<double>(t.threads(), budget_s)
+                                       : mean_flops<float>(t.threads(), budget_s);
 }
 
 }  // namespace pairsum::harness

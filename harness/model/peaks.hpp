@@ -29,6 +29,10 @@ std::size_t triad_array_bytes(std::uint64_t last_level_cache_bytes);
 /// counted. Memory is first touched by the thread that uses it, asks for large pages, and is given back.
 peak_rates measure_peaks(const std::string& precision, const team& t, const peak_limits& limits = {});
 
+/// Multiply-adds per second times 2, on average over `budget_s` seconds, whatever disturbs them: what sums of the same
+/// time are set against.
+double measure_multiply_adds(const std::string& precision, const team& t, double budget_s);
+
 namespace peak_loops {
 
 /// a = b + s c, n elements at 64-byte boundaries; n is a multiple of 64 bytes' worth.

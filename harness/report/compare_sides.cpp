@@ -161,7 +161,7 @@ std::string variant_of(const point& p) {
   return (chooses_isa(p) ? " " + p.isa : "") + (p.block == "none" || p.block == "auto" ? "" : " " + p.block);
 }
 
-/// The same of a point and its counterpart, which has it alone if only one of the two backends chooses.
+/// That of a point and its counterpart: once if they have the same or only one of them has any, else "this / that".
 std::string variants_of(const point& p, const point& q) {
   const std::string a = variant_of(p), b = variant_of(q);
   return a == b || b.empty() ? a : a.empty() ? b : a + " /" + b;

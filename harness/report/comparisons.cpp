@@ -37,6 +37,38 @@ json peak_scaling(const measurements& all, const measured_point& p, double peak_
   return one != nullptr && own != nullptr ? json(own->*peak / (one->*peak)) : json(nullptr);
 }
 
+json with_bounds(const ratio_estimate& r) {
+  json estimate{{"value", r.value}, {"rounds", r.pairs}};
+  put_bounds(estimate, r.bounds);
+  return estimate;
+}
+
+const json no_estimate{{"value", nullptr}, {"rounds", 0}, {"low", nullptr}, {"high", nullptr}, {"confidence", nullptr}};
+
+/// How many times as many multiply-adds the machine makes on the threads of `own` as on those of `base`, in the rounds
+/// in which both were summed, and what part of that the sums reach: (t_base f_base)/(t_own f_own) of each round. So
+/// what disturbs sums and multiply-adds alike is in neither.
+void put_machine(json& entry, const measurements& all, const measured_point& base, const measured_point& own) {
+  std::vector<double> base_flops, own_flops, base_share, own_share;
+  const auto pace = [&](const measured_point& p, const round_key& round) {
+    const auto at = all.paces.find({round, all.series[p.series].build, p.point.threads, p.point.precision});
+    return at == all.paces.end() ? 0.0 : at->second;
+  };
+  for (const auto& [round, value] : base.rounds) {
+    const auto match = own.rounds.find(round);
+    if (match == own.rounds.end() || !value.mean.sum_s || !match->second.mean.sum_s) continue;
+    const double of_base = pace(base, round), of_own = pace(own, round);
+    if (!(of_base > 0 && of_own > 0)) continue;
+    base_flops.push_back(of_base);
+    own_flops.push_back(of_own);
+    base_share.push_back(*value.mean.sum_s * of_base);
+    own_share.push_back(*match->second.mean.sum_s * of_own);
+  }
+  const bool known = !base_flops.empty();
+  entry["machine_speedup"] = known ? with_bounds(paired_ratio(own_flops, base_flops)) : no_estimate;
+  entry["of_machine"] = known ? with_bounds(paired_ratio(base_share, own_share)) : no_estimate;
+}
+
 /// The gather and the symmetric sum that differ in nothing else, by runtime.
 struct algorithm_pair {
   const char *naive, *symmetric, *runtime;
@@ -51,8 +83,8 @@ constexpr algorithm_pair algorithm_pairs[] = {{"naive", "symmetric", "serial"},
 bool is_algorithm_pair(const measurements& all, const measured_point& naive, const measured_point& symmetric) {
   const point &p = naive.point, &q = symmetric.point;
   return naive.series == symmetric.series && p.grid == q.grid && p.threads == q.threads &&
-         (p.M == q.M || (p.M == 7 && q.M == 6)) && p.isa == q.isa && has_best_granularity(all, naive) &&
-         has_best_granularity(all, symmetric);
+         (p.M == q.M || (p.M == 7 && q.M == 6)) && p.isa == q.isa && p.block == q.block &&
+         has_best_granularity(all, naive) && has_best_granularity(all, symmetric);
 }
 
 json algorithm_entry(const measured_point& base, const measured_point& own, const char* runtime) {
@@ -89,6 +121,7 @@ json thread_speedups(const measurements& all, std::vector<std::string>& caveats)
     entry["efficiency"] = s.efficiency(own.point.threads);
     entry["machine_flops_scaling"] = peak_scaling(all, own, &peak_row::flops_per_s);
     entry["machine_bandwidth_scaling"] = peak_scaling(all, own, &peak_row::bandwidth_bytes_per_s);
+    put_machine(entry, all, *base, own);
     entries.add(std::move(entry), "speedup", s.ratio());
   }
   if (!without_base.empty())

@@ -155,6 +155,7 @@ measurements collect(const std::vector<rows_file>& files, bool allow_mixed) {
   }
   for (const rows_file& file : files)
     for (const peak_row& p : file.peaks) add_peak(all, p);
+  for (std::size_t file = 0; file < files.size(); ++file) add_paces(all, files[file], file);
   const std::string differences = known.differences();
   all.compares_builds = known.are_a_factor();
   if (!differences.empty() && !all.compares_builds && !allow_mixed)

@@ -19,6 +19,15 @@ struct round_key {
   auto operator<=>(const round_key&) const = default;
 };
 
+/// Where the machine's own pace was measured in a round.
+struct pace_key {
+  round_key round;
+  std::size_t build = 0;
+  int threads = 1;
+  std::string precision;
+  auto operator<=>(const pace_key&) const = default;
+};
+
 /// What a round says of a point: the unit of all statistics.
 struct round_value {
   phases mean;                      ///< over its repetitions and their steps
@@ -66,7 +75,8 @@ struct measurements {
   std::vector<environment_row> environments;
   std::vector<struct series> series;
   std::map<std::string, std::size_t> build_of_environment;
-  std::vector<peak_row> peaks;  ///< the best of each environment, number of threads and precision
+  std::vector<peak_row> peaks;       ///< the best of each environment, number of threads and precision
+  std::map<pace_key, double> paces;  ///< multiply-adds, flop/s, mean over the round's repetitions
   std::size_t finished_rounds = 0, void_rounds = 0;
   std::optional<double> others_share;  ///< the largest of a finished round
   bool compares_builds = false;        ///< different builds were measured in the same rounds

@@ -24,6 +24,23 @@ report_table algorithm_table(const json& summary, std::size_t series) {
           table};
 }
 
+report_table scaling_table(const json& summary, std::size_t series) {
+  text_table table(
+      {"backend", "M", "threads", "speedup", "[low, high]", "machine", "[low, high]", "of machine", "[low, high]"}, 1);
+  const point_names names(summary);
+  for (const json& e : entries(summary, "speedup", series)) {
+    const json &machine = e["machine_speedup"], &share = e["of_machine"];
+    if (e["threads"] == e["base_threads"] || machine["value"].is_null()) continue;
+    table.add({names(e), whole(e["M"]), whole(e["threads"]), fixed(e["speedup"], 3), bounds(e),
+               fixed(machine["value"], 3), bounds(machine), fixed(share["value"], 3), bounds(share)});
+  }
+  return {
+      "Speedup over 1 thread, beside how many times as many multiply-adds the machine made in the same rounds, and "
+      "what "
+      "part of\nthat the sum reaches",
+      table};
+}
+
 report_table runtime_table(const json& summary, std::size_t series) {
   text_table table({"algorithm", "M", "threads", "OpenMP ms", "TBB ms", "OpenMP/TBB", "[low, high]", "faster"}, 1);
   for (const json& e : entries(summary, "runtime_comparison", series)) {

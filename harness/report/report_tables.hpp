@@ -17,6 +17,7 @@ struct report_table {
 // Of one series.
 report_table summation_table(const nlohmann::json& summary, std::size_t series);
 report_table algorithm_table(const nlohmann::json& summary, std::size_t series);
+report_table scaling_table(const nlohmann::json& summary, std::size_t series);
 report_table runtime_table(const nlohmann::json& summary, std::size_t series);
 report_table m_table(const nlohmann::json& summary, std::size_t series);
 report_table bound_table(const nlohmann::json& summary, std::size_t series);

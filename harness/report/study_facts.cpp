@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <vector>
+
+#include "harness/stats/moments.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -21,6 +25,19 @@ void add_peak(measurements& all, const peak_row& p) {
       return;
     }
   all.peaks.push_back(p);
+}
+
+void add_paces(measurements& all, const rows_file& rows, std::size_t file) {
+  std::map<pace_key, std::vector<double>> found;
+  for (const pace_row& p : rows.valid_paces()) {
+    const auto build = all.build_of_environment.find(p.environment);
+    if (build == all.build_of_environment.end()) continue;
+    found[{{file, p.round}, build->second, p.threads, p.precision}].push_back(p.flops_per_s);
+    for (peak_row& known : all.peaks)
+      if (known.environment == p.environment && known.threads == p.threads && known.precision == p.precision)
+        known.flops_per_s = std::max(known.flops_per_s, p.flops_per_s);
+  }
+  for (const auto& [key, values] : found) all.paces[key] = mean(values);
 }
 
 void add_rounds(measurements& all, const rows_file& file) {

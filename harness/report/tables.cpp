@@ -52,9 +52,9 @@ std::string details(const json& summary, const json& s) {
 
 template <class Print>
 std::string tables_of(const json& summary, std::size_t series, Print print) {
-  return print(algorithm_table(summary, series)) + print(runtime_table(summary, series)) +
-         print(m_table(summary, series)) + print(bound_table(summary, series)) + print(phase_table(summary, series)) +
-         print(build_table(summary, series));
+  return print(algorithm_table(summary, series)) + print(scaling_table(summary, series)) +
+         print(runtime_table(summary, series)) + print(m_table(summary, series)) + print(bound_table(summary, series)) +
+         print(phase_table(summary, series)) + print(build_table(summary, series));
 }
 
 std::string failed_points(const json& summary) {

@@ -90,7 +90,7 @@ class line_parser {
   /// Whether a line that does not parse can be the beginning of a row, by the keys that come first.
   static bool cut_row(const std::string& line) {
     for (const std::string begin : {"{\"bandwidth_bytes_per_s\":", "{\"barrier_wait_s\":", "{\"binding\":",
-                                    "{\"elapsed_s\":", "{\"kind\":", "{\"schema\":"})
+                                    "{\"elapsed_s\":", "{\"environment\":", "{\"kind\":", "{\"schema\":"})
       if (line.compare(0, begin.size(), begin, 0, line.size()) == 0) return true;
     return false;
   }
@@ -116,10 +116,18 @@ class line_parser {
     known(p.environment);
     rows_.peaks.push_back(std::move(p));
   }
+  void still_open(const std::string& study, int round) const {
+    if (closed_.count({study, round}) != 0)
+      throw error("key \"round\" names round " + std::to_string(round) + ", which a round row before it has closed");
+  }
+  void keep(pace_row&& p) {
+    known(p.environment);
+    still_open(p.study, p.round);
+    rows_.paces.push_back(std::move(p));
+  }
   void keep(sample&& s) {
     known(s.environment);
-    if (closed_.count({s.study, s.round}) != 0)
-      throw error("key \"round\" names round " + std::to_string(s.round) + ", which a round row before it has closed");
+    still_open(s.study, s.round);
     ++samples_[{s.study, s.round}];
     rows_.samples.push_back(std::move(s));
   }
@@ -150,6 +158,16 @@ round_set voided_in(const rows_file& rows) {
   return voided;
 }
 
+template <class Row>
+std::vector<Row> of_finished_rounds(const rows_file& file, const std::vector<Row>& rows) {
+  round_set finished;
+  for (const round_row& r : file.finished_rounds()) finished.emplace(r.study, r.round);
+  std::vector<Row> found;
+  for (const Row& r : rows)
+    if (finished.count({r.study, r.round}) != 0) found.push_back(r);
+  return found;
+}
+
 }  // namespace
 
 std::vector<round_row> rows_file::finished_rounds() const {
@@ -160,21 +178,19 @@ std::vector<round_row> rows_file::finished_rounds() const {
   return finished;
 }
 
-std::vector<sample> rows_file::valid_samples() const {
-  round_set finished;
-  for (const round_row& r : finished_rounds()) finished.emplace(r.study, r.round);
-  std::vector<sample> valid;
-  for (const sample& s : samples)
-    if (finished.count({s.study, s.round}) != 0) valid.push_back(s);
-  return valid;
-}
+std::vector<sample> rows_file::valid_samples() const { return of_finished_rounds(*this, samples); }
+std::vector<pace_row> rows_file::valid_paces() const { return of_finished_rounds(*this, paces); }
 
 std::vector<std::pair<std::string, int>> rows_file::unfinished_rounds() const {
   round_set settled = voided_in(*this);
   for (const round_row& r : rounds) settled.emplace(r.study, r.round);
   std::vector<std::pair<std::string, int>> open;
-  for (const sample& s : samples)
-    if (settled.emplace(s.study, s.round).second) open.emplace_back(s.study, s.round);
+  const auto look = [&](const auto& rows) {
+    for (const auto& r : rows)
+      if (settled.emplace(r.study, r.round).second) open.emplace_back(r.study, r.round);
+  };
+  look(samples);
+  look(paces);
   return open;
 }
 

@@ -17,19 +17,23 @@ struct rows_file {
   std::vector<environment_row> environments;
   std::vector<void_row> voids;
   std::vector<peak_row> peaks;
+  std::vector<pace_row> paces;
   std::vector<round_row> rounds;
   std::vector<end_row> ends;
   std::vector<std::size_t> rounds_before_end;  ///< of each end row: how many round rows stand before it
   bool last_line_cut = false;                  ///< a cut last line was dropped
 
   std::size_t size() const {
-    return samples.size() + environments.size() + voids.size() + peaks.size() + rounds.size() + ends.size();
+    return samples.size() + environments.size() + voids.size() + peaks.size() + paces.size() + rounds.size() +
+           ends.size();
   }
   /// The samples of finished rounds: those that a round row closes and no void row names.
   std::vector<sample> valid_samples() const;
+  /// The paces of finished rounds.
+  std::vector<pace_row> valid_paces() const;
   /// The round rows that no void row names.
   std::vector<round_row> finished_rounds() const;
-  /// Rounds that have samples but no round row and no void row, as (study, round).
+  /// Rounds that have samples or paces but no round row and no void row, as (study, round).
   std::vector<std::pair<std::string, int>> unfinished_rounds() const;
 };
 

@@ -230,10 +230,12 @@ row parse_row(const json& j) {
   if (kind == "environment") return j.get<environment_row>();
   if (kind == "void") return j.get<void_row>();
   if (kind == "peak") return j.get<peak_row>();
+  if (kind == "pace") return j.get<pace_row>();
   if (kind == "round") return j.get<round_row>();
   if (kind == "end") return j.get<end_row>();
-  throw error("key \"kind\" should be \"sample\", \"environment\", \"peak\", \"round\", \"end\" or \"void\", is \"" +
-              kind + "\"");
+  throw error(
+      "key \"kind\" should be \"sample\", \"environment\", \"peak\", \"pace\", \"round\", \"end\" or \"void\", is \"" +
+      kind + "\"");
 }
 
 }  // namespace pairsum::harness

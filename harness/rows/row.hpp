@@ -136,6 +136,16 @@ struct peak_row {
   bool operator==(const peak_row&) const = default;
 };
 
+/// What the machine's multiply-adds reach in the midst of a round: what sums of that round are set against.
+struct pace_row {
+  std::string study, utc, environment;
+  int round = 1;
+  int threads = 1;
+  std::string precision;
+  double flops_per_s = 0;
+  bool operator==(const pace_row&) const = default;
+};
+
 /// Closes a round: all its rows are in the file. A round without this row is unfinished.
 struct round_row {
   std::string study, utc, environment;
@@ -164,7 +174,7 @@ struct void_row {
   bool operator==(const void_row&) const = default;
 };
 
-using row = std::variant<sample, environment_row, void_row, peak_row, round_row, end_row>;
+using row = std::variant<sample, environment_row, void_row, peak_row, pace_row, round_row, end_row>;
 
 /// To JSON with exactly the keys of the schema; numbers that are not finite become null.
 void to_json(nlohmann::json& json, const point& value);
@@ -176,6 +186,7 @@ void to_json(nlohmann::json& json, const sample& value);
 void to_json(nlohmann::json& json, const environment_row& value);
 void to_json(nlohmann::json& json, const void_row& value);
 void to_json(nlohmann::json& json, const peak_row& value);
+void to_json(nlohmann::json& json, const pace_row& value);
 void to_json(nlohmann::json& json, const round_row& value);
 void to_json(nlohmann::json& json, const end_row& value);
 void to_json(nlohmann::json& json, const counters_row& value);
@@ -189,6 +200,7 @@ void from_json(const nlohmann::json& json, sample& value);
 void from_json(const nlohmann::json& json, environment_row& value);
 void from_json(const nlohmann::json& json, void_row& value);
 void from_json(const nlohmann::json& json, peak_row& value);
+void from_json(const nlohmann::json& json, pace_row& value);
 void from_json(const nlohmann::json& json, round_row& value);
 void from_json(const nlohmann::json& json, end_row& value);
 

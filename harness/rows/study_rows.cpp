@@ -1,4 +1,4 @@
-// The rows of a study that are no samples: environment, peak, round, end, void.
+// The rows of a study that are no samples: environment, peak, pace, round, end, void.
 #include "harness/rows/json_parts.hpp"
 
 namespace pairsum::harness {
@@ -89,6 +89,30 @@ void from_json(const json& j, peak_row& p) {
   p.threads = from.integer("threads", 1);
   p.precision = from.text("precision");
   p.bandwidth_bytes_per_s = from.positive("bandwidth_bytes_per_s");
+  p.flops_per_s = from.positive("flops_per_s");
+  from.finish();
+}
+
+void to_json(json& j, const pace_row& p) {
+  j = head("pace");
+  j["study"] = p.study;
+  j["utc"] = p.utc;
+  j["environment"] = p.environment;
+  j["round"] = p.round;
+  j["threads"] = p.threads;
+  j["precision"] = p.precision;
+  j["flops_per_s"] = finite(p.flops_per_s);
+}
+
+void from_json(const json& j, pace_row& p) {
+  fields from(j);
+  read_head(from, "pace");
+  p.study = from.text("study");
+  p.utc = from.utc("utc");
+  p.environment = from.hex("environment");
+  p.round = from.integer("round", 1);
+  p.threads = from.integer("threads", 1);
+  p.precision = from.text("precision");
   p.flops_per_s = from.positive("flops_per_s");
   from.finish();
 }

@@ -4,8 +4,6 @@
 
 #include "core/error.hpp"
 #include "harness/environment/environment.hpp"
-#include "harness/measure/binding.hpp"
-#include "harness/measure/counters.hpp"
 #include "harness/rows/same_build.hpp"
 #include "harness/run/file_lock.hpp"
 #include "harness/run/own_environment.hpp"
@@ -13,10 +11,6 @@
 #include "harness/run/study.hpp"
 
 namespace pairsum::harness {
-
-environment_row own_environment(const study_plan& plan, const std::string& binding) {
-  return describe_environment(plan.study, thread_binding(binding).description(), counters().description());
-}
 
 std::filesystem::path rows_path(const std::filesystem::path& results, const study_plan& plan, bool fresh,
                                 const std::string& binding) {

@@ -13,6 +13,7 @@ rows_so_far::rows_so_far(const std::filesystem::path& path, const study_plan& pl
   if (!std::filesystem::exists(path, code) || std::filesystem::file_size(path, code) == 0) return;
   rows_ = read_rows(path, cut_line::drop);
   for (const sample& s : rows_.samples) last_round_ = std::max(last_round_, s.round);
+  for (const pace_row& p : rows_.paces) last_round_ = std::max(last_round_, p.round);
   for (const void_row& v : rows_.voids) last_round_ = std::max(last_round_, v.round);
   for (const round_row& r : rows_.rounds) last_round_ = std::max(last_round_, r.round);
   const std::string hash = plan_hash(plan);

@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "harness/environment/environment.hpp"
 #include "harness/environment/machine.hpp"
@@ -100,11 +104,18 @@ class errand_run {
     open();
     warm_up(part);
     const int repetitions = part.request().repetitions;
-    const double unit = 1.0 / static_cast<double>(part.points().size() * static_cast<std::size_t>(repetitions));
+    const auto machine = paces_of(part);
+    const std::size_t entries = part.points().size() + machine.size();
+    const double unit = 1.0 / static_cast<double>(entries * static_cast<std::size_t>(repetitions));
     for (int repetition = 1; repetition <= repetitions; ++repetition) {
-      const auto sequence = shuffled_order(part.points().size(), part.request().seed, order_.round, repetition);
+      const auto sequence = shuffled_order(entries, part.request().seed, order_.round, repetition);
       for (std::size_t slot = 0; slot < sequence.size(); ++slot) {
         if (interrupted()) return 130;
+        if (sequence[slot] >= part.points().size()) {
+          write_pace(machine[sequence[slot] - part.points().size()]);
+          advance(unit);
+          continue;
+        }
         const auto& p = part.points()[sequence[slot]];
         const world::result r = part.world_of(p).measure(p.what);
         if (r.interrupted) return 130;
@@ -138,6 +149,25 @@ class errand_run {
   }
 
  private:
+  using threads_and_precision = std::pair<int, std::string>;
+
+  /// What of the machine is measured among the part's points, so that these can be set against it: the multiply-adds of
+  /// every number of threads and precision, if the plan wants peaks.
+  std::vector<threads_and_precision> paces_of(const measured_part& part) const {
+    std::set<threads_and_precision> wanted;
+    if (order_.plan.peaks)
+      for (const auto& p : part.points()) wanted.emplace(p.what.threads, p.what.precision);
+    return {wanted.begin(), wanted.end()};
+  }
+
+  void write_pace(const threads_and_precision& of) {
+    constexpr double budget_s = 0.1;
+    const worker_team workers(runtime::omp, of.first, &binding_);
+    const double flops = measure_multiply_adds(of.second, workers.get(), budget_s);
+    writer_->write(
+        pace_row{order_.plan.study, utc_now(), environment_.environment, order_.round, of.first, of.second, flops});
+  }
+
   /// One step of every backend with the most threads it gets, in every world: pages, pools and clocks are awake after
   /// it, and nothing of it is kept.
   void warm_up(measured_part& part) {

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <thread>
 #include <vector>
 
 namespace pairsum {
 namespace {
 
-constexpr std::array widths{16, 12, 8, 6, 4, 3, 2};
+constexpr std::array widths{16, 8, 4, 2};
 
 /// Where the cells are along the last `axes` axes, each place once.
 template <int D>
-std::vector<ivec<D>> columns_of(const cells<D>& c, int axes) {
+std::vector<ivec<D>> places_of(const cells<D>& c, int axes) {
   std::vector<ivec<D>> all;
   for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) {
     ivec<D> at = c.place[cell];
@@ -24,9 +25,9 @@ std::vector<ivec<D>> columns_of(const cells<D>& c, int axes) {
 }
 
 template <class V>
-std::size_t blocks_of(const std::vector<V>& columns, int width) {
+std::size_t blocks_of(const std::vector<V>& places, int width) {
   std::vector<V> all;
-  for (V at : columns) {
+  for (V at : places) {
     for (auto& a : at) a /= width;
     if (all.empty() || at != all.back()) all.push_back(at);
   }
@@ -34,29 +35,37 @@ std::size_t blocks_of(const std::vector<V>& columns, int width) {
   return static_cast<std::size_t>(std::unique(all.begin(), all.end()) - all.begin());
 }
 
-/// Of a block in the cache: all of a brick, and of what is left whole along the first axis the cells in use.
-std::size_t cells_in_use(int dim, int axes, int width) {
-  std::size_t n = axes < dim ? 4 : 1;
-  for (int d = 0; d < axes; ++d) n *= static_cast<std::size_t>(width) + 2;
+std::size_t power(std::size_t base, int exponent) {
+  std::size_t n = 1;
+  for (int k = 0; k < exponent; ++k) n *= base;
   return n;
+}
+
+/// What a sweep has in use at a time: a brick with a rim; of a pencil, by rule of thumb, 4 cells of its length.
+std::size_t cells_in_use(int dim, int axes, int width) {
+  return (axes < dim ? 4 : 1) * power(static_cast<std::size_t>(width) + 2, axes);
 }
 
 }  // namespace
 
 block_limits limits_of(std::size_t cache_bytes, std::size_t bytes_per_cell, std::size_t cores) {
-  constexpr std::size_t usual_cache = std::size_t{1} << 20, usual_cores = 2, blocks_per_core = 6;
-  return {(cache_bytes > 0 ? cache_bytes : usual_cache) / 2 / bytes_per_cell,
-          blocks_per_core * (cores > 0 ? cores : usual_cores)};
+  constexpr std::size_t usual_cache = std::size_t{1} << 20, blocks_per_core = 6;
+  const std::size_t threads = cores > 0 ? cores : std::max(1u, std::thread::hardware_concurrency());
+  return {(cache_bytes > 0 ? cache_bytes : usual_cache) / 2 / bytes_per_cell, blocks_per_core * threads};
 }
 
 template <int D>
 block_shape choose_block(const cells<D>& c, const block_limits& limits) {
   for (int axes = std::max(1, D - 1); axes <= D; ++axes) {
-    const auto columns = columns_of(c, axes);
-    for (const int width : widths)
-      if (c.period % (2 * width) == 0 && cells_in_use(D, axes, width) <= limits.cells &&
-          blocks_of(columns, width) >= limits.blocks << axes)
-        return {axes, width};
+    const std::size_t enough = limits.blocks << axes;
+    std::vector<ivec<D>> places;
+    for (const int width : widths) {
+      if (c.period % (2 * width) != 0 || cells_in_use(D, axes, width) > limits.cells) continue;
+      if (axes == D && c.fluid_cells / power(static_cast<std::size_t>(width), D) >= enough)
+        return {axes, width};  // even full, so without counting
+      if (places.empty()) places = places_of(c, axes);
+      if (blocks_of(places, width) >= enough) return {axes, width};
+    }
   }
   return {D, widths.back()};
 }

@@ -8,22 +8,24 @@ namespace pairsum {
 
 /// What blocks that are chosen have to keep to.
 struct block_limits {
-  std::size_t cells = 0;   ///< at most as many in the cache, with those around them
+  std::size_t cells = 0;   ///< of a block and around it, at most, that are in use at a time
   std::size_t blocks = 0;  ///< of a colour, at least, on average
 };
 
 /// @param cache_bytes    of a core; 0: 1 MiB
 /// @param bytes_per_cell what a sum touches of a cell; half the cache is for that
-/// @param cores          of the machine, 6 blocks for each, so that a pass ends nearly together on all; 0: 2
+/// @param cores          6 blocks for each, so that a pass ends nearly together on all; 0: as the machine says
 block_limits limits_of(std::size_t cache_bytes, std::size_t bytes_per_cell, std::size_t cores);
 
-/// The shape for these cells: the widest pencils (in 2D slabs), or bricks where those are too few. Rows along the first
-/// axis are left whole as long as that is possible: a particle's row is then loaded
+/// The shape for these cells: the widest pencils (in 2D slabs) that keep to the limits, or else the widest bricks, or
+/// bricks of 2. Widths are powers of two, so that they go round every hashed grid and all grids have the same blocks.
 ///
-///     ((w+2)/w)^2 times by pencils,    ((w+2)/w)^3 times by bricks
+/// Pencils come first because their rows are whole: a million particles on one thread take, relative to brick:4,
 ///
-/// of w cells, which is what a sum over more particles than the cache holds waits for. Goes round a torus if the cells
-/// are one.
+///     slab:2 0.87    pencil:2 0.95    pencil:8  0.86    brick:8  0.92
+///     slab:4 0.86    pencil:4 0.90    pencil:16 0.85    brick:16 0.87
+///
+/// and slabs are too few for many threads.
 template <int D>
 block_shape choose_block(const cells<D>& c, const block_limits& limits);
 

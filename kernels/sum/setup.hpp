@@ -18,7 +18,7 @@ struct setup {
   std::string isa = "best";    ///< instruction set of vector backends: a word of isa_names(), or the best of them
   std::string block = "auto";  ///< blocks of backends that have them: slab:N, pencil:N, brick:N (N cells wide), or auto
   std::size_t cache_bytes = 0;  ///< of a core, for `auto` blocks; 0: 1 MiB
-  std::size_t cores = 0;        ///< of the machine, however many threads are taken; for `auto` blocks; 0: 2
+  std::size_t cores = 0;  ///< that a process may use, however many it takes, for `auto` blocks; 0: as the machine says
   std::vector<double> omega_low, omega_high;  ///< m, `dim` values each
   physics constants;                          ///< H and the equation of state
 };

@@ -22,8 +22,9 @@ using lane_vector = hn::Vec<lane_tag<R>>;
 template <class R>
 inline constexpr std::size_t lane_count = hn::MaxLanes(lane_tag<R>());
 
-/// first, first + 1, ... Unless it knows `first` when compiling, Highway stores lane by lane and loads a vector, which
-/// 16 lanes wait for; few lanes are slower when added up (by 10 % of a sum with SSE4).
+/// first, first + 1, ... Highway's Iota of a number that is unknown when compiling writes lane after lane to memory and
+/// loads them as a vector, which has to wait for them all. With 16 lanes adding to a constant is quicker; with few it
+/// is slower (by 10 % of a sum with SSE4).
 template <class D>
 HWY_INLINE hn::Vec<D> numbered_from(D d, std::size_t first) {
   const auto from = static_cast<hn::TFromD<D>>(first);

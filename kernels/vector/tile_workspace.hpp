@@ -68,7 +68,7 @@ class tile_workspace {
       throw error("vector backends take at most 2^31 - 1 particles in float or mixed precision, got " +
                   std::to_string(p.count));
     threads_ = t.threads();
-    rows_are_zero_ = true;
+    rows_are_zero_ = false;
     blocks_.build(p.cells());
     if (kernel_) {
       rows_.resize((p.fluid_count + spare) * row_bytes);
@@ -82,11 +82,12 @@ class tile_workspace {
         std::fill_n(view.row(i), tiles::rates_at, std::numeric_limits<value>::quiet_NaN());
         std::fill_n(view.rates_of_row(i), padded(tiles::rates), real(0));
       }
+      rows_are_zero_ = true;
     }
   }
 
-  /// The rates to 0: those of rows, which are 0 from prepare() on until they are summed, or of gathers, which add to the
-  /// columns.
+  /// The rates to 0: those of rows, which are 0 from prepare() on until they are summed, or of gathers, which add to
+  /// the columns.
   void zero(const problem<I>& p, const team& t) {
     if (symmetric && kernel_ && rows_are_zero_) return;
     const tiles view = view_of(p);
@@ -100,8 +101,8 @@ class tile_workspace {
     });
   }
 
-  /// To be called before the first block of a sum. Every thread needs spare rows: throws pairsum::error for a team larger
-  /// than that of prepare().
+  /// To be called before the first block of a sum. Every thread needs spare rows: throws pairsum::error for a team
+  /// larger than that of prepare().
   void begin_sum(const team& t) {
     if (t.threads() > threads_)
       throw error("prepared for " + std::to_string(threads_) + " threads, but to be summed on " +
@@ -176,7 +177,7 @@ class tile_workspace {
         row[d] = state.x[d];
     }
     each_scalar(p.formula->derive(state), [&](const real& a, int k) { row[I::dim + k] = static_cast<value>(a); });
-    std::fill_n(view.rates_of_row(i), tiles::rates, real(0));
+    if constexpr (symmetric) std::fill_n(view.rates_of_row(i), tiles::rates, real(0));
   }
 
   /// Omega's longest edge, in units of the reach.

@@ -8,6 +8,17 @@ import pytest
 
 BIN = pathlib.Path(os.environ["PAIRSUM_BIN"])
 SMALL = ["--dx", "0.08", "--M", "3", "--threads", "1", "--steps", "2", "--rounds", "1"]
+# Two parts, 3 points, 6 rounds each.
+PLAN = {
+    "schema": "pairsum.plan/1",
+    "study": "mine",
+    "title": "a plan of a test",
+    "defaults": {"case": "dam_break", "dx": 0.08, "M": 3, "threads": 1, "steps": 2, "rounds": 6},
+    "parts": [
+        {"name": "both", "reason": "to have two", "backend": "naive,symmetric"},
+        {"name": "alone", "backend": "naive", "state": "perturbed", "rounds": [6, 8]},
+    ],
+}
 
 
 @pytest.fixture

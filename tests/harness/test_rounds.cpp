@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "harness/environment/environment.hpp"
 #include "harness/rows/writer.hpp"
@@ -145,6 +146,30 @@ TEST_F(peaks, are_measured_once_per_file) {
   ASSERT_EQ(conduct_with(pretend({1, 2})), 0);
   EXPECT_EQ(asked_, 1);
   EXPECT_EQ(read_rows(path_).peaks.size(), 2u);
+}
+
+/// Each round says what the machine's multiply-adds reached in its midst, on as many threads as its points; a plan
+/// without peaks has none.
+TEST_F(peaks, each_round_has_its_paces) {
+  plan_.parts[0].least_rounds = plan_.parts[0].most_rounds = 2;
+  ASSERT_EQ(conduct_with(pretend({1, 2})), 0);
+  const rows_file rows = read_rows(path_);
+  std::vector<std::pair<int, int>> found;
+  for (const pace_row& p : rows.valid_paces()) {
+    found.emplace_back(p.round, p.threads);
+    EXPECT_EQ(p.precision, "double");
+    EXPECT_GT(p.flops_per_s, 1e8);
+  }
+  std::ranges::sort(found);
+  const std::vector<std::pair<int, int>> wanted{{1, 1}, {1, 2}, {2, 1}, {2, 2}};
+  EXPECT_EQ(found, wanted);
+  std::set<int> slots;
+  for (const sample& s : rows.samples) slots.insert(s.slot);
+  EXPECT_LE(*slots.rbegin(), 4) << "two points and two paces";
+  plan_.peaks = false;
+  const auto other = file("without.jsonl");
+  ASSERT_EQ(conduct_here(plan_, other), 0);
+  EXPECT_TRUE(read_rows(other).paces.empty());
 }
 
 TEST_F(peaks, that_were_cut_are_completed) {

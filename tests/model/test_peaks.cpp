@@ -51,6 +51,9 @@ TEST(peaks, are_positive_and_finite) {
       EXPECT_TRUE(std::isfinite(p.bandwidth_bytes_per_s) && std::isfinite(p.flops_per_s));
       EXPECT_GT(p.bandwidth_bytes_per_s, 0);
       EXPECT_GT(p.flops_per_s, 0);
+      const double pace = measure_multiply_adds(precision, team::omp(threads), 0.05);
+      EXPECT_TRUE(std::isfinite(pace));
+      EXPECT_GT(pace, 0);
     }
   EXPECT_GT(measure_peaks("double", team(), quick).flops_per_s, 0);
 }
@@ -74,6 +77,8 @@ std::string message(F&& f) {
 
 TEST(peaks, refuse_what_they_cannot_measure) {
   EXPECT_EQ(message([] { measure_peaks("half", team()); }), "unknown precision \"half\"; valid: double, float, mixed");
+  EXPECT_EQ(message([] { measure_multiply_adds("half", team(), 0.1); }),
+            "unknown precision \"half\"; valid: double, float, mixed");
   const workers tbb(runtime::tbb, 2);
   EXPECT_EQ(message([&] { measure_peaks("double", tbb.get()); }),
             "peaks are measured on a serial or an OpenMP team, not on oneTBB's");

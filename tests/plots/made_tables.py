@@ -35,6 +35,9 @@ def _confidence(intervals):
     return {"confidence": 0.95 if intervals else None}
 
 
+_UNKNOWN = {"value": None, "low": None, "high": None, "confidence": None, "rounds": 0}
+
+
 def _speedup(entry, times, intervals):
     point, threads = entry["point"], entry["point"]["threads"]
     now, one = times[_key(entry)], times[_key(entry, threads=1)]
@@ -43,7 +46,8 @@ def _speedup(entry, times, intervals):
             "base_threads": 1, "base_time_s": one, "speedup": one / now,
             **spread(one / now, intervals), **_confidence(intervals), "efficiency": one / now / threads,
             "machine_flops_scaling": peak(threads) / peak(1),
-            "machine_bandwidth_scaling": bandwidth(threads) / bandwidth(1)}
+            "machine_bandwidth_scaling": bandwidth(threads) / bandwidth(1),
+            "machine_speedup": dict(_UNKNOWN), "of_machine": dict(_UNKNOWN)}
 
 
 def _algorithm(entry, times, intervals):

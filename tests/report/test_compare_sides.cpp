@@ -63,9 +63,11 @@ TEST_F(compared, blocks_of_one_side_alone_tell_the_pairs_apart) {
   write(
       {{"naive_omp", 7, 2, 1.0}, {"tiles_omp", 7, 2, 0.5, 6, in("auto")}, {"tiles_omp", 7, 2, 0.25, 6, in("slab:4")}});
   const std::string text = compare("naive_omp", "tiles_omp");
-  EXPECT_CONTAINS(text, "M=7 threads=2 slab:4  6/6  1050.0  262.50  4.000");
-  EXPECT_CONTAINS(text, "M=7 threads=2         6/6  1050.0  525.00  2.000");
-  EXPECT_CONTAINS(compare("tiles_omp", "naive_omp"), "M=7 threads=2 slab:4  6/6  262.50  1050.0  0.250");
+  EXPECT_CONTAINS(text, "M=7 threads=2 native slab:4     6/6  1050.0  262.50  4.000");
+  EXPECT_CONTAINS(text, "M=7 threads=2 native            6/6  1050.0  525.00  2.000");
+  EXPECT_CONTAINS(compare("tiles_omp", "naive_omp"), "M=7 threads=2 native slab:4     6/6  262.50  1050.0  0.250");
+  EXPECT_CONTAINS(compare("tiles_omp block=auto", "tiles_omp block=slab:4"),
+                  "M=7 threads=2 native / native slab:4     6/6  525.00  262.50  2.000");
 }
 
 TEST_F(compared, another_phase_can_be_asked_for) {

@@ -53,6 +53,53 @@ TEST_F(report_of_machine, peaks_keep_the_best_of_each_kind) {
   EXPECT_TRUE(only(s["speedup"], {{"threads", 4}})["machine_flops_scaling"].is_null());
 }
 
+/// The sum becomes 1.5 times as fast on 2 threads and the multiply-adds 1.875 times, in each of the rounds, however
+/// these are disturbed: 0.8 of the machine.
+TEST_F(report_of_machine, speedups_are_set_against_the_paces_of_their_rounds) {
+  {
+    row_writer writer(rows_path());
+    writer.write(example::environment());
+    pace_row pace = example::pace();
+    for (pace.round = 1; pace.round <= 6; ++pace.round)
+      for (pace.threads = 1; pace.threads <= 2; ++pace.threads) {
+        pace.flops_per_s = (pace.threads == 1 ? 4e10 : 7.5e10) / synthetic::disturbance(pace.round);
+        writer.write(pace);
+      }
+    synthetic::write_rounds(writer, {{"tiles_omp", 6, 1, 0.6}, {"tiles_omp", 6, 2, 0.4}, {"tiles_omp", 6, 4, 0.2}});
+  }
+  const json s = make();
+  const json two = only(s["speedup"], {{"threads", 2}});
+  EXPECT_VALUE(two["machine_speedup"]["value"], 1.875);
+  EXPECT_VALUE(two["of_machine"]["value"], 0.8);
+  EXPECT_NEAR(two["of_machine"]["low"].get<double>(), 0.8, 1e-9);
+  EXPECT_EQ(two["of_machine"]["rounds"], 6);
+  const json four = only(s["speedup"], {{"threads", 4}});
+  EXPECT_TRUE(four["of_machine"]["value"].is_null()) << "its pace was not measured";
+  EXPECT_CONTAINS(text_, "multiply-adds the machine made in the same rounds");
+  EXPECT_CONTAINS(text_, "1.500  [1.500, 1.500]    1.875  [1.875, 1.875]       0.800  [0.800, 0.800]");
+}
+
+/// A peak that the rounds surpassed was measured too low.
+TEST_F(report_of_machine, paces_raise_the_peaks) {
+  {
+    row_writer writer(rows_path());
+    writer.write(example::environment());
+    writer.write(peak(1, 1e10, 5e10));
+    writer.write(peak(2, 1e10, 1e11));
+    pace_row pace = example::pace();
+    pace.round = 1;
+    pace.threads = 1;
+    pace.flops_per_s = 6e10;
+    writer.write(pace);
+    pace.threads = 2;
+    writer.write(pace);
+    synthetic::write_rounds(writer, talk());
+  }
+  const json s = make();
+  EXPECT_EQ(only(s["peaks"], {{"threads", 1}})["flops_per_s"], 6e10);
+  EXPECT_EQ(only(s["peaks"], {{"threads", 2}})["flops_per_s"], 1e11);
+}
+
 TEST_F(report_of_machine, the_bound_is_set_against_the_measured_time) {
   if (!has_formula()) GTEST_SKIP() << "this build has not the formula";
   write_with({peak(1, 1e10, 1e9)}, {{"naive", 6, 1, 0.72 / 1.05, 6, counting}});

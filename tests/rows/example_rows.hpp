@@ -84,6 +84,9 @@ inline peak_row peak() {
   return peak_row{"talk", "2026-11-22T15:30:00.5Z", "0123456789abcdef", 2, "double", 1.5e10, 9.5e10};
 }
 
+/// In round 2.
+inline pace_row pace() { return pace_row{"talk", "2026-11-22T15:30:01Z", "0123456789abcdef", 2, 2, "double", 9e10}; }
+
 /// Closes round 2 of the samples above.
 inline round_row closing(std::uint64_t rows = 2) {
   round_row r;

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
       writer.write(example::peak());
       writer.write(example::measured());
       writer.write(example::failed());
+      writer.write(example::pace());
       writer.write(example::closing());
       writer.write(example::ended());
       writer.write(example::voided());

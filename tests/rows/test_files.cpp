@@ -74,6 +74,35 @@ TEST_F(rows_files, only_samples_of_finished_rounds_are_valid) {
   EXPECT_EQ(rows.unfinished_rounds(), open);
 }
 
+TEST_F(rows_files, paces_count_with_their_round) {
+  const auto path = file("rows.jsonl");
+  row_writer writer(path);
+  writer.write(example::environment());
+  sample s = example::measured();
+  pace_row pace = example::pace();
+  round_row closing = example::closing(1);
+  for (int round = 1; round <= 3; ++round) {
+    s.round = closing.round = pace.round = round;
+    writer.write(pace);
+    writer.write(s);
+    writer.write(closing);
+  }
+  pace.round = 4;  // cut before its first sample
+  writer.write(pace);
+  writer.write(example::voided());  // round 2
+  const rows_file rows = read_rows(path);
+  EXPECT_EQ(rows.size(), 1u + 4 + 3 + 3 + 1);
+  const std::vector<pace_row> valid = rows.valid_paces();
+  ASSERT_EQ(valid.size(), 2u);
+  EXPECT_EQ(valid[0].round, 1);
+  EXPECT_EQ(valid[1].round, 3);
+  const std::vector<std::pair<std::string, int>> open{{"talk", 4}};
+  EXPECT_EQ(rows.unfinished_rounds(), open);
+  pace.round = 3;
+  writer.write(pace);
+  EXPECT_CONTAINS(message_of([&] { read_rows(path); }), "names round 3, which a round row before it has closed");
+}
+
 TEST_F(rows_files, a_round_row_must_close_what_is_there) {
   const std::string environment = format_row(example::environment()) + "\n",
                     one = format_row(example::measured()) + "\n";

@@ -27,6 +27,7 @@ TEST(row, every_kind_survives_a_round_trip) {
   EXPECT_EQ(round_trip(example::environment()), example::environment());
   EXPECT_EQ(round_trip(example::voided()), example::voided());
   EXPECT_EQ(round_trip(example::peak()), example::peak());
+  EXPECT_EQ(round_trip(example::pace()), example::pace());
   EXPECT_EQ(round_trip(example::closing()), example::closing());
   EXPECT_EQ(round_trip(example::ended()), example::ended());
   environment_row bare = example::environment();
@@ -91,7 +92,7 @@ TEST(row, every_missing_key_is_named) {
     }
   }
   for (const row& value : {row(example::environment()), row(example::voided()), row(example::peak()),
-                           row(example::closing()), row(example::ended())}) {
+                           row(example::pace()), row(example::closing()), row(example::ended())}) {
     const json other = json::parse(format_row(value));
     for (const auto& item : other.items()) {
       const std::string key = item.key();
@@ -146,7 +147,7 @@ TEST(row, a_point_in_words) {
 TEST(row, every_key_of_another_type_is_named) {
   for (const row& value :
        {row(example::measured()), row(example::environment()), row(example::voided()), row(example::failed()),
-        row(example::peak()), row(example::closing()), row(example::ended())}) {
+        row(example::peak()), row(example::pace()), row(example::closing()), row(example::ended())}) {
     const json whole = json::parse(format_row(value));
     for (const auto& item : whole.items()) {
       const std::string key = item.key();
@@ -178,9 +179,9 @@ TEST(row, messages_say_what_is_right_and_what_is_there) {
             "key \"point\" should be an object, is an array");
   EXPECT_EQ(rejection(s, [](json& j) { j["schema"] = "pairsum.row/1"; }),
             "key \"schema\" should be \"pairsum.row/2\", is \"pairsum.row/1\"");
-  EXPECT_EQ(
-      rejection(s, [](json& j) { j["kind"] = "samples"; }),
-      "key \"kind\" should be \"sample\", \"environment\", \"peak\", \"round\", \"end\" or \"void\", is \"samples\"");
+  EXPECT_EQ(rejection(s, [](json& j) { j["kind"] = "samples"; }),
+            "key \"kind\" should be \"sample\", \"environment\", \"peak\", \"pace\", \"round\", \"end\" or \"void\", "
+            "is \"samples\"");
   EXPECT_EQ(rejection(s, [](json& j) { j["verify"]["fingerprint"] = "xyz"; }),
             "key \"verify.fingerprint\" should be 16 hex digits, is \"xyz\"");
   EXPECT_EQ(rejection(s, [](json& j) { j["utc"] = "22.11.2026"; }),

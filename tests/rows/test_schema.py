@@ -58,7 +58,7 @@ def changed(row, place, new):
 
 
 def test_every_kind_is_written_and_valid(rows, validator):
-    assert [row["kind"] for row in rows] == ["environment", "peak", "sample", "sample", "round", "end", "void"]
+    assert [row["kind"] for row in rows] == ["environment", "peak", "sample", "sample", "pace", "round", "end", "void"]
     for row in rows:
         validator.validate(row)
 
