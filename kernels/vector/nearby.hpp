@@ -67,31 +67,68 @@ class alignas(4096) nearby {
     for (int c = 0; c < D; ++c) hn::StoreU(hn::Zero(d), d, x_[c] + n_);
   }
 
-  /// Writes the indices of the candidates in slots first .. last-1 that pass the test from `place`, in their order, to
-  /// `hits`, which needs room for a vector more than there are; returns their end. What is behind the last slot is
-  /// taken for a candidate unless `masked`, see close().
-  template <bool masked>
-  HWY_INLINE std::uint32_t* find(const float (&place)[D], std::size_t first, std::size_t last,
-                                 std::uint32_t* hits) const {
+  /// Writes the indices of the candidates that pass the test from `place`, in their order, to `hits`, which needs room
+  /// for a vector more than there are; returns their end.
+  HWY_INLINE std::uint32_t* find(const float (&place)[D], std::uint32_t* hits) const {
+    return find_from(0, test(*this, place), hits);
+  }
+  /// Of those behind slot `own`. It starts with whole vectors, so that loads do not straddle cache lines and the number
+  /// of vectors is the same for most particles of a cell.
+  HWY_INLINE std::uint32_t* find_after(const float (&place)[D], std::size_t own, std::uint32_t* hits) const {
     const tag d;
-    const lane_tag<std::uint32_t> di;
-    float own = 0;
-    for (int c = 0; c < D; ++c) own += place[c] * place[c];
-    const auto limit = hn::Set(d, limit_ - own);
-    for (std::size_t k = first; k < last; k += N) {
-      auto sum = hn::LoadU(d, square_ + k);
-      for (int c = 0; c < D; ++c) sum = hn::NegMulAdd(hn::Set(d, 2 * place[c]), hn::LoadU(d, x_[c] + k), sum);
-      auto in = hn::Lt(sum, limit);
-      if constexpr (masked)
-        if (k + N > last) in = hn::And(in, hn::FirstN(d, last - k));
-      const auto mask = hn::RebindMask(di, in);
-      hn::StoreU(hn::Compress(hn::LoadU(di, index_ + k), mask), di, hits);
-      hits += hn::CountTrue(di, mask);
-    }
-    return hits;
+    if (own >= n_) return hits;
+    const test in(*this, place);
+    const std::size_t at = own / N * N;
+    hits = keep(at, hn::AndNot(hn::FirstN(d, own - at + 1), in(at)), hits);
+    return find_from(at + N, in, hits);
+  }
+  /// Of all but the one in slot `own`.
+  HWY_INLINE std::uint32_t* find_but(const float (&place)[D], std::size_t own, std::uint32_t* hits) const {
+    const tag d;
+    const test in(*this, place);
+    if (own >= n_) return find_from(0, in, hits);
+    const std::size_t at = own / N * N;
+    for (std::size_t k = 0; k < at; k += N) hits = keep(k, in(k), hits);
+    const auto others = hn::Or(hn::FirstN(d, own - at), hn::Not(hn::FirstN(d, own - at + 1)));
+    hits = keep(at, hn::And(others, in(at)), hits);
+    return find_from(at + N, in, hits);
   }
 
  private:
+  /// Which of the candidates in slots k .. k + N - 1 pass from a place? None of those behind the last, see close().
+  class test {
+   public:
+    HWY_INLINE test(const nearby& near, const float (&place)[D]) : near_(near) {
+      float norm = 0;
+      for (int c = 0; c < D; ++c) {
+        norm += place[c] * place[c];
+        twice_[c] = hn::Set(tag(), 2 * place[c]);
+      }
+      limit_ = hn::Set(tag(), near.limit_ - norm);
+    }
+    HWY_INLINE auto operator()(std::size_t k) const {
+      auto sum = hn::Load(tag(), near_.square_ + k);
+      for (int c = 0; c < D; ++c) sum = hn::NegMulAdd(twice_[c], hn::Load(tag(), near_.x_[c] + k), sum);
+      return hn::Lt(sum, limit_);
+    }
+
+   private:
+    const nearby& near_;
+    hn::Vec<tag> twice_[D], limit_;
+  };
+
+  HWY_INLINE std::uint32_t* find_from(std::size_t k, const test& in, std::uint32_t* hits) const {
+    for (; k < n_; k += N) hits = keep(k, in(k), hits);
+    return hits;
+  }
+  template <class Mask>
+  HWY_INLINE std::uint32_t* keep(std::size_t k, Mask in, std::uint32_t* hits) const {
+    const lane_tag<std::uint32_t> di;
+    const auto mask = hn::RebindMask(di, in);
+    hn::StoreU(hn::Compress(hn::Load(di, index_ + k), mask), di, hits);
+    return hits + hn::CountTrue(di, mask);
+  }
+
   /// One vector of candidates, those beyond the range among them: they are overwritten by the next, or never tested.
   HWY_INLINE void copy(const places& place, std::size_t j, std::size_t slot) {
     const tag d;

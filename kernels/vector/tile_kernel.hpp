@@ -54,11 +54,13 @@ class tile_kernel {
         t, own, fluid, 1, near, [&] { return b.particles_for(near.size()); },
         [&](std::uint32_t i, const float(&place)[D], std::size_t first) HWY_ATTR {
           const std::size_t slot = i - own.fluid_begin;
-          std::uint32_t* end = b.free();
-          if constexpr (!symmetric)
-            if (slot > first) end = near.template find<true>(place, 0, std::min(slot - first, near.size()), end);
-          end = near.template find<false>(place, slot < first ? 0 : slot + 1 - first, near.size(), end);
-          b.add(i, end);
+          std::uint32_t* const hits = b.free();
+          if (slot < first)  // a piece of the candidates without it
+            b.add(i, near.find(place, hits));
+          else if constexpr (symmetric)
+            b.add(i, near.find_after(place, slot - first, hits));
+          else
+            b.add(i, near.find_but(place, slot - first, hits));
         },
         [&]() HWY_ATTR { b.template flush<symmetric>(); });
     if constexpr (has_boundary<I>)
@@ -72,7 +74,7 @@ class tile_kernel {
     each_near(
         t, own, boundary, static_cast<float>(boundary_reach<I>()), near, [&] { return std::size_t{own.fluid()}; },
         [&](std::uint32_t i, const float(&place)[D], std::size_t) HWY_ATTR {
-          const std::uint32_t* const end = near.template find<false>(place, 0, near.size(), hits);
+          const std::uint32_t* const end = near.find(place, hits);
           if (end == hits) return;
           lane_vector<real> u[S];
           for (std::size_t s = 0; s < S; ++s) u[s] = hn::Zero(lane_tag<real>());
