@@ -167,7 +167,7 @@ TEST_F(peaks, each_round_has_its_paces) {
   for (const sample& s : rows.samples) slots.insert(s.slot);
   EXPECT_LE(*slots.rbegin(), 4) << "two points and two paces";
   plan_.peaks = false;
-  const auto other = file("without.jsonl");
+  const auto other = path_.parent_path() / "without.jsonl";
   ASSERT_EQ(conduct_here(plan_, other), 0);
   EXPECT_TRUE(read_rows(other).paces.empty());
 }
