@@ -115,7 +115,7 @@ def footer_lines(summary, wrap):
         text += f"; and {more} more environment{'s' * (more > 1)}" if more else ""
         lines = textwrap.wrap(text, wrap)
     words = usual.text(summary)
-    lines += textwrap.wrap(f"Granularity if not said: {words}", wrap) if words else []
+    lines += textwrap.wrap(f"Of those measured in several ways this shows: {words}", wrap) if words else []
     for caveat in summary["caveats"][:3]:
         some = textwrap.wrap(f"Caveat: {caveat}", wrap)
         lines += some if len(some) < 3 else [some[0], some[1] + " ..."]

@@ -28,11 +28,12 @@ def is_usual(summary, fields=FIELDS):
 
 def text(summary):
     """Say the usual words of the backends that were measured with several, or nothing."""
-    said = []
+    said = {}
     for field in FIELDS:
         several = {}
         for entry in summary["points"]:
             several.setdefault(entry["point"]["backend"], set()).add(entry["point"].get(field))
-        said += [f"{backend} {word}" for backend, word in of_backends(summary, field).items()
-                 if len(several[backend]) > 1]
-    return ", ".join(said)
+        for backend, word in of_backends(summary, field).items():
+            if len(several[backend]) > 1:
+                said.setdefault(backend, []).append(word)
+    return ", ".join(" ".join([backend, *words]) for backend, words in said.items())

@@ -54,6 +54,7 @@ std::vector<rows_file> of_revision(std::vector<rows_file> files, const std::stri
       if (is_revision(revision, e)) own.insert(e.environment);
     std::erase_if(f.samples, [&](const sample& s) { return !own.contains(s.environment); });
     std::erase_if(f.environments, [&](const environment_row& e) { return !own.contains(e.environment); });
+    std::erase_if(f.paces, [&](const pace_row& p) { return !own.contains(p.environment); });
     std::erase_if(f.peaks, [&](const peak_row& p) { return !own.contains(p.environment); });
   }
   return files;

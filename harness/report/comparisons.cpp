@@ -4,6 +4,8 @@
 
 #include "harness/report/compared_points.hpp"
 #include "harness/report/judged_entries.hpp"
+#include "harness/stats/interval.hpp"
+#include "harness/stats/median.hpp"
 #include "harness/stats/speedup.hpp"
 
 namespace pairsum::harness {
@@ -37,21 +39,22 @@ json peak_scaling(const measurements& all, const measured_point& p, double peak_
   return one != nullptr && own != nullptr ? json(own->*peak / (one->*peak)) : json(nullptr);
 }
 
-json with_bounds(const ratio_estimate& r) {
-  json estimate{{"value", r.value}, {"rounds", r.pairs}};
-  put_bounds(estimate, r.bounds);
+/// The median over rounds with its interval; all null without rounds.
+json median_over_rounds(const std::vector<double>& values) {
+  json estimate{{"value", values.empty() ? json(nullptr) : json(median(values))}, {"rounds", values.size()}};
+  put_bounds(estimate, values.empty() ? std::nullopt : median_interval(values));
   return estimate;
 }
 
-const json no_estimate{{"value", nullptr}, {"rounds", 0}, {"low", nullptr}, {"high", nullptr}, {"confidence", nullptr}};
-
 /// How many times as many multiply-adds the machine makes on the threads of `own` as on those of `base`, in the rounds
-/// in which both were summed, and what part of that the sums reach: (t_base f_base)/(t_own f_own) of each round. So
-/// what disturbs sums and multiply-adds alike is in neither.
+/// in which both were summed, and what part of that the sums reach: (t_base f_base)/(t_own f_own) of each round.
+/// Medians, because what disturbs a round hits the two differently: threads that share a core for a while halve the
+/// multiply-adds and may leave a sum as it was.
 void put_machine(json& entry, const measurements& all, const measured_point& base, const measured_point& own) {
-  std::vector<double> base_flops, own_flops, base_share, own_share;
+  std::vector<double> machine, share;
   const auto pace = [&](const measured_point& p, const round_key& round) {
-    const auto at = all.paces.find({round, all.series[p.series].build, p.point.threads, p.point.precision});
+    const series& s = all.series[p.series];
+    const auto at = all.paces.find({round, s.study, s.build, p.point.threads, p.point.precision});
     return at == all.paces.end() ? 0.0 : at->second;
   };
   for (const auto& [round, value] : base.rounds) {
@@ -59,14 +62,11 @@ void put_machine(json& entry, const measurements& all, const measured_point& bas
     if (match == own.rounds.end() || !value.mean.sum_s || !match->second.mean.sum_s) continue;
     const double of_base = pace(base, round), of_own = pace(own, round);
     if (!(of_base > 0 && of_own > 0)) continue;
-    base_flops.push_back(of_base);
-    own_flops.push_back(of_own);
-    base_share.push_back(*value.mean.sum_s * of_base);
-    own_share.push_back(*match->second.mean.sum_s * of_own);
+    machine.push_back(of_own / of_base);
+    share.push_back(*value.mean.sum_s / *match->second.mean.sum_s / machine.back());
   }
-  const bool known = !base_flops.empty();
-  entry["machine_speedup"] = known ? with_bounds(paired_ratio(own_flops, base_flops)) : no_estimate;
-  entry["of_machine"] = known ? with_bounds(paired_ratio(base_share, own_share)) : no_estimate;
+  entry["machine_speedup"] = median_over_rounds(machine);
+  entry["of_machine"] = median_over_rounds(share);
 }
 
 /// The gather and the symmetric sum that differ in nothing else, by runtime.

@@ -22,6 +22,7 @@ struct round_key {
 /// Where the machine's own pace was measured in a round.
 struct pace_key {
   round_key round;
+  std::string study;
   std::size_t build = 0;
   int threads = 1;
   std::string precision;

@@ -111,17 +111,18 @@ void ask_scaling(const json& summary, std::size_t series, json& out) {
   if (entries.empty() || threads < 2) return;
   std::map<bool, std::vector<double>> by_kind;
   std::vector<std::string> texts;
-  json machine = nullptr, in_rounds = nullptr;
+  json machine = nullptr;
   std::vector<std::string> shares;
+  std::vector<double> in_rounds;
   for (const json& e : entries) {
-    const std::string backend = word(e.at("backend"));
-    texts.push_back(fmt::format("{} {}: {}", backend, cells(e), with_bounds(e, "speedup")));
+    const std::string backend = word(e.at("backend")), name = backend + " " + cells(e) + variant(e, entries);
+    texts.push_back(fmt::format("{}: {}", name, with_bounds(e, "speedup")));
     if (backend.starts_with("naive")) by_kind[false].push_back(e.at("speedup"));
     if (backend.starts_with("symmetric") || backend.starts_with("tiles")) by_kind[true].push_back(e.at("speedup"));
     machine = e.at("machine_flops_scaling");
     if (e.at("of_machine").at("value").is_null()) continue;
-    in_rounds = e.at("machine_speedup");
-    shares.push_back(backend + " " + with_bounds(e.at("of_machine"), "value"));
+    in_rounds.push_back(e.at("machine_speedup").at("value"));
+    shares.push_back(fmt::format("{}: {}", name, with_bounds(e.at("of_machine"), "value")));
   }
   if (by_kind.size() < 2) return;
   const auto range = [](std::vector<double> v) {
@@ -138,10 +139,11 @@ void ask_scaling(const json& summary, std::size_t series, json& out) {
     }
   std::string text = fmt::format("On {} naive sums are {} times as fast as on one, symmetric sums {} times ({}).",
                                  threads_text(threads), range(by_kind[false]), range(by_kind[true]), join(texts));
-  if (in_rounds.is_object())
+  if (!in_rounds.empty())
     text += fmt::format(
-        " In the same rounds the machine itself made {} times as many multiply-adds; of that the sums reach: {}.",
-        with_bounds(in_rounds, "value"), join(shares));
+        " In the same rounds the machine itself made {} times as many multiply-adds; of that the sums reach (medians "
+        "over rounds; above 1 where the two were disturbed differently): {}.",
+        range(in_rounds), join(shares));
   else if (machine.is_number())
     text += fmt::format(" The machine itself does {:.2f} times as many multiply-adds.", machine.get<double>());
   if (waits > 0)

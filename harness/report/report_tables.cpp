@@ -35,9 +35,9 @@ report_table scaling_table(const json& summary, std::size_t series) {
                fixed(machine["value"], 3), bounds(machine), fixed(share["value"], 3), bounds(share)});
   }
   return {
-      "Speedup over 1 thread, beside how many times as many multiply-adds the machine made in the same rounds, and "
-      "what "
-      "part of\nthat the sum reaches",
+      "Speedup over 1 thread; how many times as many multiply-adds the machine made in the same rounds, and what part "
+      "of\n"
+      "that the sum reaches (medians over rounds)",
       table};
 }
 

@@ -32,7 +32,7 @@ void add_paces(measurements& all, const rows_file& rows, std::size_t file) {
   for (const pace_row& p : rows.valid_paces()) {
     const auto build = all.build_of_environment.find(p.environment);
     if (build == all.build_of_environment.end()) continue;
-    found[{{file, p.round}, build->second, p.threads, p.precision}].push_back(p.flops_per_s);
+    found[{{file, p.round}, p.study, build->second, p.threads, p.precision}].push_back(p.flops_per_s);
     for (peak_row& known : all.peaks)
       if (known.environment == p.environment && known.threads == p.threads && known.precision == p.precision)
         known.flops_per_s = std::max(known.flops_per_s, p.flops_per_s);

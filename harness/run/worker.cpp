@@ -151,13 +151,15 @@ class errand_run {
  private:
   using threads_and_precision = std::pair<int, std::string>;
 
-  /// What of the machine is measured among the part's points, so that these can be set against it: the multiply-adds of
-  /// every number of threads and precision, if the plan wants peaks.
+  /// What of the machine is measured among the part's points, so that their speedups can be set against it: if the plan
+  /// wants peaks and the part has one thread and more, the multiply-adds of every number of threads and precision.
   std::vector<threads_and_precision> paces_of(const measured_part& part) const {
     std::set<threads_and_precision> wanted;
     if (order_.plan.peaks)
       for (const auto& p : part.points()) wanted.emplace(p.what.threads, p.what.precision);
-    return {wanted.begin(), wanted.end()};
+    const bool scales = !wanted.empty() && wanted.begin()->first == 1 && wanted.rbegin()->first > 1;
+    return scales ? std::vector<threads_and_precision>(wanted.begin(), wanted.end())
+                  : std::vector<threads_and_precision>();
   }
 
   void write_pace(const threads_and_precision& of) {

@@ -138,7 +138,7 @@ HWY_INLINE void transpose(V (&v)[4]) {
 template <std::size_t n, class R>
 HWY_INLINE void load_rows(const R* rows, std::size_t stride, const std::uint32_t* index, lane_vector<R> (&values)[n]) {
   constexpr std::size_t P = rows_detail::piece<R>, blocks = (n + P - 1) / P;
-  // With 32 registers all blocks of a row are loaded while its address is at hand; with 16 that is slower.
+  // With 32 registers all blocks of a row are loaded while its address is at hand; with 16 that brought nothing.
   if constexpr (HWY_CAP_GE512) {
     lane_vector<R> v[blocks][P];
 #pragma GCC unroll 16

@@ -52,8 +52,8 @@ TEST(peaks, are_positive_and_finite) {
       EXPECT_GT(p.bandwidth_bytes_per_s, 0);
       EXPECT_GT(p.flops_per_s, 0);
       const double pace = measure_multiply_adds(precision, team::omp(threads), 0.05);
-      EXPECT_TRUE(std::isfinite(pace));
-      EXPECT_GT(pace, 0);
+      EXPECT_GT(pace, p.flops_per_s / 16);  // nearer than a lost factor of lanes, if the machine is disturbed
+      EXPECT_LT(pace, p.flops_per_s * 16);
     }
   EXPECT_GT(measure_peaks("double", team(), quick).flops_per_s, 0);
 }

@@ -77,6 +77,16 @@ inline void write_rounds(row_writer& writer, const std::vector<made_point>& poin
   for (int round = 1; round <= rounds; ++round) write_round(writer, round, points);
 }
 
+/// The paces of rounds 1 to 6 on 1 and 2 threads; write them before the rounds.
+inline void write_paces(row_writer& writer, double one, double two) {
+  pace_row pace = example::pace();
+  for (pace.round = 1; pace.round <= 6; ++pace.round)
+    for (pace.threads = 1; pace.threads <= 2; ++pace.threads) {
+      pace.flops_per_s = (pace.threads == 1 ? one : two) / disturbance(pace.round);
+      writer.write(pace);
+    }
+}
+
 /// Multiplies the times of round k by exp(logs[k - 1]).
 inline std::function<void(sample&)> scattered(std::vector<double> logs) {
   return [logs](sample& s) {
