@@ -15,16 +15,25 @@ namespace {
 /// Above this share of the machine's time used by others, a round counts as disturbed.
 constexpr double disturbing_share = 0.05;
 
+/// The peak of the same environment, threads and precision; nullptr if none is known.
+template <class Row>
+peak_row* peak_like(measurements& all, const Row& p) {
+  const auto like = std::ranges::find_if(all.peaks, [&](const peak_row& known) {
+    return known.environment == p.environment && known.threads == p.threads && known.precision == p.precision;
+  });
+  return like == all.peaks.end() ? nullptr : &*like;
+}
+
 }  // namespace
 
 void add_peak(measurements& all, const peak_row& p) {
-  for (peak_row& known : all.peaks)
-    if (known.environment == p.environment && known.threads == p.threads && known.precision == p.precision) {
-      known.bandwidth_bytes_per_s = std::max(known.bandwidth_bytes_per_s, p.bandwidth_bytes_per_s);
-      known.flops_per_s = std::max(known.flops_per_s, p.flops_per_s);
-      return;
-    }
-  all.peaks.push_back(p);
+  peak_row* const known = peak_like(all, p);
+  if (known == nullptr) {
+    all.peaks.push_back(p);
+    return;
+  }
+  known->bandwidth_bytes_per_s = std::max(known->bandwidth_bytes_per_s, p.bandwidth_bytes_per_s);
+  known->flops_per_s = std::max(known->flops_per_s, p.flops_per_s);
 }
 
 void add_paces(measurements& all, const rows_file& rows, std::size_t file) {
@@ -33,9 +42,7 @@ void add_paces(measurements& all, const rows_file& rows, std::size_t file) {
     const auto build = all.build_of_environment.find(p.environment);
     if (build == all.build_of_environment.end()) continue;
     found[{{file, p.round}, p.study, build->second, p.threads, p.precision}].push_back(p.flops_per_s);
-    for (peak_row& known : all.peaks)
-      if (known.environment == p.environment && known.threads == p.threads && known.precision == p.precision)
-        known.flops_per_s = std::max(known.flops_per_s, p.flops_per_s);
+    if (peak_row* const known = peak_like(all, p)) known->flops_per_s = std::max(known->flops_per_s, p.flops_per_s);
   }
   for (const auto& [key, values] : found) all.paces[key] = mean(values);
 }

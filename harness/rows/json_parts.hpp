@@ -24,12 +24,21 @@ nlohmann::json or_null(const std::optional<T>& value) {
   return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
 }
 
-/// The keys that rows of every kind begin with.
-inline nlohmann::json head(const char* kind) { return {{"schema", row_schema}, {"kind", kind}}; }
+/// The keys that rows of every kind have; the environment only those that name one.
+template <class Row>
+nlohmann::json head(const char* kind, const Row& row) {
+  nlohmann::json j{{"schema", row_schema}, {"kind", kind}, {"study", row.study}, {"utc", row.utc}};
+  if constexpr (requires { row.environment; }) j["environment"] = row.environment;
+  return j;
+}
 
-inline void read_head(fields& from, const char* kind) {
+template <class Row>
+void read_head(fields& from, const char* kind, Row& row) {
   from.literal("schema", row_schema);
   from.literal("kind", kind);
+  row.study = from.text("study");
+  row.utc = from.utc("utc");
+  if constexpr (requires { row.environment; }) row.environment = from.hex("environment");
 }
 
 }  // namespace pairsum::harness

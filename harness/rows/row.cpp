@@ -163,16 +163,13 @@ void to_json(json& j, const verify_row& v) {
 }
 
 void to_json(json& j, const sample& s) {
-  j = head("sample");
-  j["study"] = s.study;
+  j = head("sample", s);
   j["part"] = s.part;
   j["round"] = s.round;
   j["slot"] = s.slot;
   j["repetition"] = s.repetition;
   j["step"] = s.step;
   j["seed"] = s.seed;
-  j["utc"] = s.utc;
-  j["environment"] = s.environment;
   j["point"] = s.point;
   j["phases"] = or_null(s.phases);
   j["threads_busy_s"] = pass_times(s.threads_busy_s);
@@ -191,16 +188,13 @@ void from_json(const json& j, verify_row& v) { v = read_verify(fields(j)); }
 
 void from_json(const json& j, sample& s) {
   fields from(j);
-  read_head(from, "sample");
-  s.study = from.text("study");
+  read_head(from, "sample", s);
   s.part = from.text("part");
   s.round = from.integer("round", 1);
   s.slot = from.integer("slot", 1);
   s.repetition = from.integer("repetition", 1);
   s.step = from.integer("step", 1);
   s.seed = from.count("seed");
-  s.utc = from.utc("utc");
-  s.environment = from.hex("environment");
   s.point = read_point(from.nested("point"));
   s.error.reset();
   if (from.has("error")) s.error = from.text("error");

@@ -6,10 +6,7 @@ namespace pairsum::harness {
 using nlohmann::json;
 
 void to_json(json& j, const environment_row& e) {
-  j = head("environment");
-  j["study"] = e.study;
-  j["utc"] = e.utc;
-  j["environment"] = e.environment;
+  j = head("environment", e);
   j["host"] = e.host;
   j["cpu"] = e.cpu;
   j["caches"] = e.caches;
@@ -27,10 +24,7 @@ void to_json(json& j, const environment_row& e) {
 
 void from_json(const json& j, environment_row& e) {
   fields from(j);
-  read_head(from, "environment");
-  e.study = from.text("study");
-  e.utc = from.utc("utc");
-  e.environment = from.hex("environment");
+  read_head(from, "environment", e);
   e.host = from.text("host");
   e.cpu = from.text("cpu");
   e.caches.clear();
@@ -52,28 +46,21 @@ void from_json(const json& j, environment_row& e) {
 }
 
 void to_json(json& j, const void_row& v) {
-  j = head("void");
-  j["study"] = v.study;
-  j["utc"] = v.utc;
+  j = head("void", v);
   j["round"] = v.round;
   j["reason"] = v.reason;
 }
 
 void from_json(const json& j, void_row& v) {
   fields from(j);
-  read_head(from, "void");
-  v.study = from.text("study");
-  v.utc = from.utc("utc");
+  read_head(from, "void", v);
   v.round = from.integer("round", 1);
   v.reason = from.text("reason");
   from.finish();
 }
 
 void to_json(json& j, const peak_row& p) {
-  j = head("peak");
-  j["study"] = p.study;
-  j["utc"] = p.utc;
-  j["environment"] = p.environment;
+  j = head("peak", p);
   j["threads"] = p.threads;
   j["precision"] = p.precision;
   j["bandwidth_bytes_per_s"] = finite(p.bandwidth_bytes_per_s);
@@ -82,10 +69,7 @@ void to_json(json& j, const peak_row& p) {
 
 void from_json(const json& j, peak_row& p) {
   fields from(j);
-  read_head(from, "peak");
-  p.study = from.text("study");
-  p.utc = from.utc("utc");
-  p.environment = from.hex("environment");
+  read_head(from, "peak", p);
   p.threads = from.integer("threads", 1);
   p.precision = from.text("precision");
   p.bandwidth_bytes_per_s = from.positive("bandwidth_bytes_per_s");
@@ -94,10 +78,7 @@ void from_json(const json& j, peak_row& p) {
 }
 
 void to_json(json& j, const pace_row& p) {
-  j = head("pace");
-  j["study"] = p.study;
-  j["utc"] = p.utc;
-  j["environment"] = p.environment;
+  j = head("pace", p);
   j["round"] = p.round;
   j["threads"] = p.threads;
   j["precision"] = p.precision;
@@ -106,10 +87,7 @@ void to_json(json& j, const pace_row& p) {
 
 void from_json(const json& j, pace_row& p) {
   fields from(j);
-  read_head(from, "pace");
-  p.study = from.text("study");
-  p.utc = from.utc("utc");
-  p.environment = from.hex("environment");
+  read_head(from, "pace", p);
   p.round = from.integer("round", 1);
   p.threads = from.integer("threads", 1);
   p.precision = from.text("precision");
@@ -118,10 +96,7 @@ void from_json(const json& j, pace_row& p) {
 }
 
 void to_json(json& j, const round_row& r) {
-  j = head("round");
-  j["study"] = r.study;
-  j["utc"] = r.utc;
-  j["environment"] = r.environment;
+  j = head("round", r);
   j["round"] = r.round;
   j["part"] = r.part;
   j["replicate"] = r.replicate;
@@ -134,10 +109,7 @@ void to_json(json& j, const round_row& r) {
 
 void from_json(const json& j, round_row& r) {
   fields from(j);
-  read_head(from, "round");
-  r.study = from.text("study");
-  r.utc = from.utc("utc");
-  r.environment = from.hex("environment");
+  read_head(from, "round", r);
   r.round = from.integer("round", 1);
   r.part = from.text("part");
   r.replicate = from.integer("replicate", 1);
@@ -150,18 +122,14 @@ void from_json(const json& j, round_row& r) {
 }
 
 void to_json(json& j, const end_row& e) {
-  j = head("end");
-  j["study"] = e.study;
-  j["utc"] = e.utc;
+  j = head("end", e);
   j["plan"] = e.plan;
   j["reason"] = e.reason;
 }
 
 void from_json(const json& j, end_row& e) {
   fields from(j);
-  read_head(from, "end");
-  e.study = from.text("study");
-  e.utc = from.utc("utc");
+  read_head(from, "end", e);
   e.plan = from.hex("plan");
   e.reason = from.text("reason");
   from.finish();

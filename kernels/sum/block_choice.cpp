@@ -3,12 +3,23 @@
 #include <algorithm>
 #include <array>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include "core/value.hpp"
 
 namespace pairsum {
 namespace {
 
 constexpr std::array widths{16, 8, 4, 2};
+
+/// Sorted, each once.
+template <class V>
+std::vector<V> distinct(std::vector<V> all) {
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
 
 /// Where the cells are along the last `axes` axes, each place once.
 template <int D>
@@ -19,26 +30,14 @@ std::vector<ivec<D>> places_of(const cells<D>& c, int axes) {
     for (int d = 0; d < D - axes; ++d) at[d] = 0;
     if (all.empty() || at != all.back()) all.push_back(at);
   }
-  std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
+  return distinct(std::move(all));
 }
 
 template <class V>
-std::size_t blocks_of(const std::vector<V>& places, int width) {
-  std::vector<V> all;
-  for (V at : places) {
+std::size_t blocks_of(std::vector<V> places, int width) {
+  for (V& at : places)
     for (auto& a : at) a /= width;
-    if (all.empty() || at != all.back()) all.push_back(at);
-  }
-  std::ranges::sort(all);
-  return static_cast<std::size_t>(std::unique(all.begin(), all.end()) - all.begin());
-}
-
-std::size_t power(std::size_t base, int exponent) {
-  std::size_t n = 1;
-  for (int k = 0; k < exponent; ++k) n *= base;
-  return n;
+  return distinct(std::move(places)).size();
 }
 
 /// What a sweep has in use at a time: a brick with a rim; of a pencil, by rule of thumb, 4 cells of its length.
