@@ -44,7 +44,7 @@ constexpr level_option level_options[] = {
     {"grid", "hashed_grid", "grids, a list; those that take no M are measured once"},
     {"isa", "best", "instruction sets of vector backends, a list; best: the best that this machine has; all"},
     {"block", "auto",
-     "blocks of backends that have some, a list: auto, slab:4, pencil:4, brick:4 (4 cells wide), with :rows or "
+     "blocks of backends that have some, a list: auto, slab:4, pencil:4, brick:4 (4 cells wide), with :bundles or "
      ":morton behind for another order of cells"},
     {"order", "lattice", "orders of memory at the start, a list: lattice, shuffled, morton"},
     {"outside", "error", "particles outside Omega: error or drop"},

@@ -39,7 +39,7 @@ class wendland_c2 {
   T slope_over_r(const T& r) const {
     const T s = T(1) - r * T(inv_H_);
     if constexpr (D == 1) return T(slope_) * (s * s);
-    return T(slope_) * (s * s) * s;
+    return (T(slope_) * s) * (s * s);
   }
 
  private:

@@ -29,14 +29,14 @@ block_shape block_shape::parse(const std::string& word) {
   }();
   const auto name = std::ranges::find(shape_names, parts[0]);
   const bool has_order = std::ranges::count(word, ':') == 2;
-  const auto order = has_order ? std::ranges::find(order_names, parts[2]) : order_names.begin() + 1;
+  const auto order = has_order ? std::ranges::find(order_names, parts[2]) : order_names.begin();
   int width = 0;
   const char *begin = parts[1].data(), *end = begin + parts[1].size();
   const auto [at, failed] = std::from_chars(begin, end, width);
   if (failed != std::errc() || at != end || std::ranges::count(word, ':') > 2 || name == shape_names.end() ||
       order == order_names.end() || width < 2 || width > widest)
     throw error("block must be auto, slab:N, pencil:N or brick:N with N from 2 to " + std::to_string(widest) +
-                " cells, and :rows or :morton if its cells are to be in another order than bundles, is \"" + word +
+                " cells, and :bundles or :morton if its cells are to be in another order than row after row, is \"" + word +
                 "\"");
   return {static_cast<int>(name - shape_names.begin()) + 1, width,
           static_cast<cell_order>(order - order_names.begin())};
@@ -44,7 +44,7 @@ block_shape block_shape::parse(const std::string& word) {
 
 std::string block_shape::word() const {
   std::string w = std::string(shape_names[static_cast<std::size_t>(axes) - 1]) + ":" + std::to_string(width);
-  if (order != cell_order::bundles) w += ":" + std::string(order_names[static_cast<std::size_t>(order)]);
+  if (order != cell_order::rows) w += ":" + std::string(order_names[static_cast<std::size_t>(order)]);
   return w;
 }
 

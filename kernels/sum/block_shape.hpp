@@ -14,11 +14,11 @@ enum class cell_order {
 struct block_shape {
   int axes = 3;
   int width = 2;
-  cell_order order = cell_order::bundles;
+  cell_order order = cell_order::rows;
   bool operator==(const block_shape&) const = default;
 
   /// slab:N (one axis), pencil:N (two) or brick:N (three), N from 2 to 4096 cells wide; axes that the dimension lacks
-  /// do not count; then, if not bundles, the order: slab:N:rows or slab:N:morton. Throws pairsum::error.
+  /// do not count; then, if not rows, the order: slab:N:bundles or slab:N:morton. Throws pairsum::error.
   static block_shape parse(const std::string& word);
   /// The word that parse() takes.
   std::string word() const;

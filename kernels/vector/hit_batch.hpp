@@ -57,15 +57,16 @@ HWY_INLINE Mask decide_near_ties(const tile_problem<I>& t, Mask in, V r2, typena
   return decide_lanes(t, in, close, reach2, i, other, d);
 }
 
-/// The hits of a few particles i, each list filled up to whole vectors with spare rows, and their sums. Vectors of
-/// different i follow each other without a branch that depends on how many hits an i has. A few of them at a time go
-/// through three short loops,
+/// The hits of a few particles i, each list filled up to whole vectors with spare rows, and their sums:
 ///
-///   load, transpose, r, r2, |r|      in_[vector]
-///   formula; u_i += to_i             out_[vector], sums_[i]
-///   u_j += to_j
+///   for i, for vectors of its hits j:
+///     load, transpose, r, r2, |r|
+///     formula; u_i += to_i            u_i in registers, summed over the lanes behind the last vector
+///     u_j += to_j                     row by row
 ///
-/// because a core waits for so many instructions at most: in one loop, those behind the root would fill it.
+/// A core waits for so many vector instructions at most, fewer than two vectors of pairs have. So, where lanes are of
+/// four bytes and half the instructions are loads and transposition, these run a few vectors ahead, in a loop of their
+/// own; with lanes of eight bytes the stores that takes cost more than it brings.
 template <class I, class V>
 class alignas(4096) hit_batch {
   using tiles = tile_problem<I>;
@@ -90,111 +91,119 @@ class alignas(4096) hit_batch {
     const index_tag d;
     constexpr std::size_t L = hn::MaxLanes(d);
     for (std::size_t k = 0; k < N; k += L) hn::StoreU(numbered_from(d, spare_ + k), d, end + k);
-    const std::size_t vectors = (static_cast<std::size_t>(end - free()) + N - 1) / N;
-    for (std::size_t k = 0; k < vectors; k += L) {
-      hn::StoreU(hn::Set(d, static_cast<std::uint32_t>(n_)), d, of_ + vectors_ + k);
-      hn::StoreU(hn::Set(d, ~0u), d, goes_on_ + vectors_ + k);
-    }
-    goes_on_[vectors_] = 0;
-    vectors_ += vectors;
+    vectors_ += (static_cast<std::size_t>(end - free()) + N - 1) / N;
     particles_[n_] = i;
-    n_ += vectors > 0;
+    ends_[n_] = static_cast<std::uint32_t>(vectors_);
+    ++n_;
   }
 
   /// Sums all pairs; then the batch is empty.
   template <bool symmetric>
   HWY_INLINE void flush() {
-    const lane_tag<real> d;
     const lane_tag<sum_real> wide;
-    W u[S];
-    for (W& of_rate : u) of_rate = hn::Zero(wide);
-    for (std::size_t first = 0; first < vectors_; first += chunk) {
-      const std::size_t n = std::min(chunk, vectors_ - first);
-      for (std::size_t k = 0; k < n; ++k) load(first + k, in_[k]);
-      for (std::size_t k = 0; k < n; ++k) sum_vector<symmetric>(first + k, in_[k], u, out_[k]);
-      if constexpr (symmetric)
-        for (std::size_t k = 0; k < n; ++k) {
-          V to_j[S];
-          for (std::size_t s = 0; s < S; ++s) to_j[s] = hn::Load(d, out_[k][s]);
-          add_to_rows<real>(t_.rates_of_row(0), tiles::rates_stride, hits_ + (first + k) * N, to_j);
-        }
-    }
+    std::size_t v = 0;
     for (std::size_t k = 0; k < n_; ++k) {
-      for (std::size_t s = 0; s < S; ++s) u[s] = hn::Load(wide, sums_[k][s]);
-      add_sums<symmetric>(t_, particles_[k], u);
+      if (v == ends_[k]) continue;
+      W u[S];
+      for (W& of_rate : u) of_rate = hn::Zero(wide);
+      const std::uint32_t i = particles_[k];
+      const real* const row = t_.row(i);
+      const auto one = particle_at<I, T>(row);
+      for (; v < ends_[k]; ++v) {
+        const std::uint32_t* const hits = hits_ + v * N;
+        if constexpr (symmetric && ahead > 0) {
+          if (v % ahead == 0) load_ahead(v, k);
+          sum_vector<symmetric>(restored(ahead_[v % ahead]), hits, i, one, u);
+        } else {
+          sum_vector<symmetric>(loaded(hits, row), hits, i, one, u);
+        }
+      }
+      add_sums<symmetric>(t_, i, u);
     }
     vectors_ = n_ = 0;
   }
 
  private:
-  static constexpr std::size_t capacity = 2048, most = 32, padding = 16, chunk = 8;
-  /// A vector of pairs, a lane each: r, what j brings, then r2 and |r|.
-  using pair_lanes = real[K + 2][N];
-  using rate_lanes = real[S][N];
-  using sum_lanes = sum_real[S][lane_count<sum_real>];
-
-  const real* row_of(std::size_t vector) const { return t_.row(particles_[of_[vector]]); }
-
-  HWY_INLINE void load(std::size_t vector, pair_lanes& in) const {
-    const lane_tag<real> d;
-    const real* const row = row_of(vector);
-    V value[K];
-    load_rows(t_.row(0), tiles::stride, hits_ + vector * N, value);
+  static constexpr std::size_t capacity = 2048, most = 32, padding = 16, ahead = sizeof(real) == 4 ? 4 : 0;
+  /// A vector of pairs: r = x_i - x_j, r.r, |r|, and what j brings.
+  struct pairs {
     vec<D, T> r;
-    T r2;
+    T r2, distance;
+    particle other;
+  };
+  using stored_pairs = real[K + 2][N];
+
+  HWY_INLINE pairs loaded(const std::uint32_t* hits, const real* row) const {
+    const lane_tag<real> d;
+    V value[K];
+    load_rows(t_.row(0), tiles::stride, hits, value);
+    pairs p;
     if constexpr (is_mixed<I>) {
       const hn::RebindToSigned<lane_tag<real>> whole;
       for (int c = 0; c < D; ++c) {
         const auto from = hn::BitCast(whole, value[c]);
         const auto apart = hn::Sub(hn::BitCast(whole, hn::Set(d, row[c])), from);
-        r[c] = hn::Mul(hn::ConvertTo(d, apart), hn::Set(d, t_.mixed_unit));
+        p.r[c] = hn::Mul(hn::ConvertTo(d, apart), hn::Set(d, t_.mixed_unit));
       }
-      const auto there = hn::BitCast(whole, hn::LoadU(index_tag(), hits_ + vector * N));
+      const auto there = hn::BitCast(whole, hn::LoadU(index_tag(), hits));
       const auto is = hn::Lt(there, hn::Set(whole, static_cast<std::int32_t>(t_.p->fluid_count)));
-      r2 = hn::IfThenElse(hn::RebindMask(d, is), norm2<D, T>(r).v, hn::Set(d, std::numeric_limits<real>::infinity()));
+      p.r2 =
+          hn::IfThenElse(hn::RebindMask(d, is), norm2<D, T>(p.r).v, hn::Set(d, std::numeric_limits<real>::infinity()));
     } else {
-      for (int c = 0; c < D; ++c) r[c] = T(hn::Set(d, row[c])) - T(value[c]);
-      r2 = norm2<D, T>(r);
+      for (int c = 0; c < D; ++c) p.r[c] = T(hn::Set(d, row[c])) - T(value[c]);
+      p.r2 = norm2<D, T>(p.r);
     }
-    for (int c = 0; c < D; ++c) hn::Store(r[c].v, d, in[c]);
-    for (std::size_t k = D; k < K; ++k) hn::Store(value[k], d, in[k]);
-    hn::Store(r2.v, d, in[K]);
-    hn::Store(square_root(r2).v, d, in[K + 1]);
+    p.distance = square_root(p.r2);
+    each_scalar(p.other, [&](T& v, int k) HWY_ATTR { v = value[D + k]; });
+    return p;
   }
 
-  /// u: sums of the vector's particle i if the vector before was of the same, else of that one.
-  template <bool symmetric>
-  HWY_INLINE void sum_vector(std::size_t vector, const pair_lanes& from, W (&u)[S], rate_lanes& to_j) {
-    const problem<I>& p = *t_.p;
+  /// Loads vectors from v on, the first of them of particle number k.
+  HWY_INLINE void load_ahead(std::size_t v, std::size_t k) {
     const lane_tag<real> d;
-    vec<D, T> r;
-    for (int c = 0; c < D; ++c) r[c] = hn::Load(d, from[c]);
-    particle other;
-    each_scalar(other, [&](T& v, int k) HWY_ATTR { v = hn::Load(d, from[D + k]); });
-    const T r2 = hn::Load(d, from[K]), distance = hn::Load(d, from[K + 1]);
-    auto in = hn::Lt(r2.v, hn::Set(d, static_cast<real>(p.reach2)));
-    if (t_.in_reach != nullptr)
-      in = decide_near_ties(t_, in, r2.v, p.reach2, particles_[of_[vector]], hits_ + vector * N);
-    const auto both = pair_at<I, D, T>(*p.formula, distance, r, r2, particle_at<I, T>(row_of(vector)), other);
-    const lane_tag<sum_real> wide;
-    const auto same = hn::LoadMaskBits(wide, reinterpret_cast<const std::uint8_t*>(goes_on_ + vector));
-    sum_lanes& sums = sums_[of_[vector]];
-    each_scalar(both.to_i, [&](const T& v, int s) HWY_ATTR {
-      const W one = widened<sum_real>(hn::IfThenElseZero(in, v.v));
-      u[s] = hn::IfThenElse(same, hn::Add(u[s], one), one);
-      hn::Store(u[s], wide, sums[s]);
-    });
-    if constexpr (symmetric)
-      each_scalar(both.to_j, [&](const T& v, int s) HWY_ATTR { hn::Store(hn::IfThenElseZero(in, v.v), d, to_j[s]); });
+    const std::size_t end = std::min(v + ahead, vectors_);
+    for (; v < end; ++v) {
+      while (v == ends_[k]) ++k;
+      const pairs p = loaded(hits_ + v * N, t_.row(particles_[k]));
+      stored_pairs& to = ahead_[v % ahead];
+      for (int c = 0; c < D; ++c) hn::Store(p.r[c].v, d, to[c]);
+      each_scalar(p.other, [&](const T& value, int s) HWY_ATTR { hn::Store(value.v, d, to[D + s]); });
+      hn::Store(p.r2.v, d, to[K]);
+      hn::Store(p.distance.v, d, to[K + 1]);
+    }
+  }
+  static HWY_INLINE pairs restored(const stored_pairs& from) {
+    const lane_tag<real> d;
+    pairs p;
+    for (int c = 0; c < D; ++c) p.r[c] = hn::Load(d, from[c]);
+    each_scalar(p.other, [&](T& value, int s) HWY_ATTR { value = hn::Load(d, from[D + s]); });
+    p.r2 = hn::Load(d, from[K]);
+    p.distance = hn::Load(d, from[K + 1]);
+    return p;
+  }
+
+  /// u: sums of particle i so far.
+  template <bool symmetric>
+  HWY_INLINE void sum_vector(const pairs& p, const std::uint32_t* hits, std::uint32_t i, const particle& one,
+                             W (&u)[S]) const {
+    const lane_tag<real> d;
+    const auto reach2 = t_.p->reach2;
+    auto in = hn::Lt(p.r2.v, hn::Set(d, static_cast<real>(reach2)));
+    if (t_.in_reach != nullptr) in = decide_near_ties(t_, in, p.r2.v, reach2, i, hits);
+    const auto both = pair_at<I, D, T>(*t_.p->formula, p.distance, p.r, p.r2, one, p.other);
+    each_scalar(both.to_i, [&](const T& v, int s)
+                               HWY_ATTR { u[s] = hn::Add(u[s], widened<sum_real>(hn::IfThenElseZero(in, v.v))); });
+    if constexpr (symmetric) {
+      V to_j[S];
+      each_scalar(both.to_j, [&](const T& v, int s) HWY_ATTR { to_j[s] = hn::IfThenElseZero(in, v.v); });
+      add_to_rows<real>(t_.rates_of_row(0), tiles::rates_stride, hits, to_j);
+    }
   }
 
   char apart_[2880];  // see nearby
   HWY_ALIGN std::uint32_t hits_[capacity];
-  HWY_ALIGN pair_lanes in_[chunk];
-  HWY_ALIGN rate_lanes out_[chunk];
-  HWY_ALIGN sum_lanes sums_[most];
-  std::uint32_t of_[capacity / N + padding];       ///< by vector: whose, of particles_
-  std::uint32_t goes_on_[capacity / N + padding];  ///< by vector: all bits set if the one before is of the same
+  HWY_ALIGN stored_pairs ahead_[ahead > 0 ? ahead : 1];
+  std::uint32_t ends_[most + 1];  ///< by particle: behind its last vector
   std::uint32_t particles_[most + 1];
   const tiles& t_;
   std::uint32_t spare_;

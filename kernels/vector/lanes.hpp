@@ -6,6 +6,7 @@
 #include "core/value.hpp"
 #include "vector/exponential.hpp"
 #include "vector/highway.hpp"
+#include "vector/root.hpp"
 
 /// A vector of lanes as a value type for formulas: + - * / and the operations of core/value.hpp, found by
 /// argument-dependent lookup. V is one of Highway's vectors, whose namespace names the instruction set; so what is
@@ -61,7 +62,7 @@ struct lanes {
   friend HWY_INLINE mask operator==(lanes a, lanes b) { return hn::Eq(a.v, b.v); }
 
   friend HWY_INLINE lanes select(mask m, lanes a, lanes b) { return hn::IfThenElse(m, a.v, b.v); }
-  friend HWY_INLINE lanes square_root(lanes a) { return hn::Sqrt(a.v); }
+  friend HWY_INLINE lanes square_root(lanes a) { return root_of(tag(), a.v); }
   friend HWY_INLINE lanes exponential(lanes a) { return exponential_of(tag(), a.v); }
   friend HWY_INLINE lanes maximum(lanes a, lanes b) { return hn::Max(a.v, b.v); }
   friend HWY_INLINE lanes absolute(lanes a) { return hn::Abs(a.v); }

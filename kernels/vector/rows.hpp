@@ -131,6 +131,38 @@ HWY_INLINE void transpose(V (&v)[4]) {
   }
 }
 
+/// load() of row r of each piece's and transpose(), for all rows of the lanes. Of eight doubles these two may choose
+/// which rows share a vector: those of lanes l and l + 2 in place of l and l + 4, so that the second step of the
+/// transposition needs no table and overwrites nothing.
+template <class D, class R>
+HWY_INLINE hn::Vec<D> load_for_lanes(D d, const R* from, std::size_t stride, const std::uint32_t* index,
+                                     std::size_t r) {
+#if HWY_CAP_GE512
+  if constexpr (sizeof(R) == 8) {
+    const std::uint32_t* const first = index + (r < 2 ? r : r + 2);
+    const auto at = [&](std::size_t k) HWY_ATTR { return _mm256_loadu_pd(from + first[k] * stride); };
+    return hn::Vec<D>{_mm512_insertf64x4(_mm512_castpd256_pd512(at(0)), at(2), 1)};
+  }
+#endif
+  return load(d, from, stride, index + r);
+}
+template <class V, std::size_t P>
+HWY_INLINE void transpose_for_lanes(V (&v)[P]) {
+#if HWY_CAP_GE512
+  if constexpr (sizeof(hn::TFromV<V>) == 8) {
+    const hn::DFromV<V> d;
+    const V a = hn::InterleaveLower(d, v[0], v[1]), b = hn::InterleaveLower(d, v[2], v[3]);
+    const V e = hn::InterleaveUpper(d, v[0], v[1]), f = hn::InterleaveUpper(d, v[2], v[3]);
+    v[0] = V{_mm512_shuffle_f64x2(a.raw, b.raw, 0x88)};
+    v[1] = V{_mm512_shuffle_f64x2(e.raw, f.raw, 0x88)};
+    v[2] = V{_mm512_shuffle_f64x2(a.raw, b.raw, 0xdd)};
+    v[3] = V{_mm512_shuffle_f64x2(e.raw, f.raw, 0xdd)};
+    return;
+  }
+#endif
+  transpose(v);
+}
+
 }  // namespace rows_detail
 
 /// values[k] becomes the vector of value k of the rows index[0 .. lanes). `stride`: distance of rows, at least
@@ -145,9 +177,9 @@ HWY_INLINE void load_rows(const R* rows, std::size_t stride, const std::uint32_t
     for (std::size_t r = 0; r < P; ++r)
 #pragma GCC unroll 16
       for (std::size_t b = 0; b < blocks; ++b)
-        v[b][r] = rows_detail::load(lane_tag<R>(), rows + b * P, stride, index + r);
+        v[b][r] = rows_detail::load_for_lanes(lane_tag<R>(), rows + b * P, stride, index, r);
 #pragma GCC unroll 16
-    for (auto& block : v) rows_detail::transpose(block);
+    for (auto& block : v) rows_detail::transpose_for_lanes(block);
 #pragma GCC unroll 64
     for (std::size_t k = 0; k < n; ++k) values[k] = v[k / P][k % P];
   } else {

@@ -1,5 +1,6 @@
 #pragma once
 #include "vector/boundary_sum.hpp"
+#include "vector/fetch_ahead.hpp"
 #include "vector/nearby.hpp"
 
 namespace pairsum {
@@ -32,7 +33,10 @@ class tile_kernel {
   static void sum(const tiles& t, const std::uint32_t* cell, std::size_t n, std::uint32_t spare) {
     near_list near;
     batch b(t, spare);
-    for (std::size_t k = 0; k < n; ++k) sum_cell<symmetric>(t, cell[k], near, b);
+    for (std::size_t k = 0; k < n; ++k) {
+      fetch_ahead<symmetric>(t, cell, n, k);
+      sum_cell<symmetric>(t, cell[k], near, b);
+    }
   }
 
  private:
