@@ -37,7 +37,7 @@ struct ppm_stencil {
 
     template <class Probe>
     void sum(const problem<I>& p, const team&, Probe& probe) {
-      for (const auto& b : blocks) sum_block(p, b, probe);
+      for (std::size_t k = 0; k < blocks.size(); ++k) sum_block_of(p, blocks, k, probe);
     }
   };
 };

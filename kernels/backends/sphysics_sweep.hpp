@@ -7,6 +7,7 @@
 // Complete, each pair once; not thread-safe as it stands: patterns of neighbouring cells overlap. Race-free here: one
 // thread.
 #include "sum/backend.hpp"
+#include "sum/fetch.hpp"
 #include "sum/half_stencil.hpp"
 
 namespace pairsum {
@@ -32,10 +33,12 @@ struct sphysics_sweep {
     template <class Probe>
     void sum(const problem<I>& p, const team&, Probe& probe) {
       const auto& c = p.cells();
-      for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell)
+      for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) {
+        fetch_for_next(p, cell, true);
         sweep_cell<I::dim>(c, cell, probe, [&](std::uint32_t i, const auto& fluid, const auto& boundary) {
           scatter_one(p, i, fluid, boundary, probe);
         });
+      }
     }
   };
 };

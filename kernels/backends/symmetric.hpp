@@ -33,7 +33,7 @@ struct symmetric {
     template <class Probe>
     void sum(const problem<I>& p, const team&, Probe& probe) {
       for (unsigned o = 0; o < coloured_blocks<I::dim>::colours; ++o)
-        for (const auto& b : blocks[o]) sum_block(p, b, probe);
+        for (std::size_t k = 0; k < blocks[o].size(); ++k) sum_block_of(p, blocks[o], k, probe);
     }
   };
 };

@@ -40,8 +40,8 @@ struct symmetric_omp {
       probe.pass_begins(0);
 #pragma omp parallel num_threads(t.threads())
       for (unsigned o = 0; o < coloured_blocks<I::dim>::colours; ++o) {
-        const auto* const b = blocks[o].data();
-        omp_pass(o, blocks[o].size(), g, probe, [&](std::size_t k) { sum_block(p, b[k], probe); });
+        const auto& b = blocks[o];
+        omp_pass(o, b.size(), g, probe, [&](std::size_t k) { sum_block_of(p, b, k, probe); });
       }
     }
   };

@@ -36,8 +36,8 @@ struct symmetric_tbb {
       const granularity g = t.granularity_or(traits.loop);
       t.arena().arena.execute([&] {
         for (unsigned o = 0; o < coloured_blocks<I::dim>::colours; ++o) {
-          const auto* const b = blocks[o].data();
-          tbb_pass(o, 0, blocks[o].size(), g, probe, [&](std::size_t k) { sum_block(p, b[k], probe); });
+          const auto& b = blocks[o];
+          tbb_pass(o, 0, b.size(), g, probe, [&](std::size_t k) { sum_block_of(p, b, k, probe); });
         }
       });
     }

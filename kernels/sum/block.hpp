@@ -4,6 +4,7 @@
 
 #include "core/same_code.hpp"
 #include "core/team.hpp"
+#include "sum/fetch.hpp"
 #include "sum/one_against_many.hpp"
 
 namespace pairsum {
@@ -80,6 +81,13 @@ PAIRSUM_SAME_CODE void sum_block(const problem<I>& p, const block<I::dim>& membe
       for (std::uint32_t i = own.fluid_begin; i < own.fluid_end; ++i) scatter_one(p, i, fluid, boundary, probe);
     }
   }
+}
+
+/// sum_block() for number k of a list of blocks that are summed one after the other.
+template <class I, class Probe>
+void sum_block_of(const problem<I>& p, const column<block<I::dim>>& blocks, std::size_t k, Probe& probe) {
+  fetch_next_block(p, blocks, k);
+  sum_block(p, blocks[k], probe);
 }
 
 /// The blocks of each of the 2^d colours.

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/same_code.hpp"
+#include "sum/fetch.hpp"
 #include "sum/one_against_many.hpp"
 
 namespace pairsum {
@@ -11,6 +12,7 @@ PAIRSUM_SAME_CODE void gather_cell(const problem<I>& p, std::size_t cell, Probe&
   constexpr unsigned stencil = cells<I::dim>::stencil;
   const auto& c = p.cells();
   const cell_range& own = c.range[cell];
+  fetch_for_next(p, cell, false);
   range_list<stencil> around, boundary;
   for (unsigned n = 0; n < stencil; ++n) {
     const cell_range& other = c.range[c.neighbour(cell, n)];
