@@ -32,7 +32,7 @@ struct naive {
 
     template <class Probe>
     void sum(const problem<I>& p, const team&, Probe& probe) {
-      for (std::size_t c = 1; c <= p.cells().fluid_cells; ++c) gather_cell(p, c, probe);
+      for (std::size_t c = 1; c <= p.cells().fluid_cells; ++c) gather_cell_in_order(p, c, probe);
     }
   };
 };

@@ -33,7 +33,7 @@ struct naive_omp {
       const granularity g = t.granularity_or(traits.loop);
       probe.pass_begins(0);
 #pragma omp parallel num_threads(t.threads())
-      omp_pass(0, n, g, probe, [&](std::size_t c) { gather_cell(p, c + 1, probe); });
+      omp_pass(0, n, g, probe, [&](std::size_t c) { gather_cell_in_order(p, c + 1, probe); });
     }
   };
 };

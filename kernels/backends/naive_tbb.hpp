@@ -31,7 +31,7 @@ struct naive_tbb {
     void sum(const problem<I>& p, const team& t, Probe& probe) {
       const granularity g = t.granularity_or(traits.loop);
       t.arena().arena.execute([&] {
-        tbb_pass(0, 1, p.cells().fluid_cells + 1, g, probe, [&](std::size_t c) { gather_cell(p, c, probe); });
+        tbb_pass(0, 1, p.cells().fluid_cells + 1, g, probe, [&](std::size_t c) { gather_cell_in_order(p, c, probe); });
       });
     }
   };

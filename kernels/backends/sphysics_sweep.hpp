@@ -34,7 +34,7 @@ struct sphysics_sweep {
     void sum(const problem<I>& p, const team&, Probe& probe) {
       const auto& c = p.cells();
       for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) {
-        fetch_for_next(p, cell, true);
+        fetch_for_next_cell<true>(p, cell);
         sweep_cell<I::dim>(c, cell, probe, [&](std::uint32_t i, const auto& fluid, const auto& boundary) {
           scatter_one(p, i, fluid, boundary, probe);
         });

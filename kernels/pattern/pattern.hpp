@@ -70,6 +70,13 @@ inline constexpr unsigned stencil_cells = static_cast<unsigned>(power_of_3(D));
 template <int D>
 inline constexpr unsigned stencil_centre = (stencil_cells<D> - 1) / 2;
 
+/// Calls visit(code) for the neighbours one step ahead along the first axis (which codes count fastest): all 3^(d-1),
+/// or those of the half stencil that codes above the middle form.
+template <int D, bool half, class Visit>
+[[gnu::always_inline]] constexpr void each_ahead(Visit&& visit) {
+  for (unsigned code = half ? stencil_centre<D> + 1 : 2; code < stencil_cells<D>; code += 3) visit(code);
+}
+
 /// Neighbour code, seen from block cell `from`, of block cell `to` (both offsets in {0,1}^d).
 template <int D>
 constexpr unsigned step_code(unsigned from, unsigned to) {

@@ -83,9 +83,10 @@ PAIRSUM_SAME_CODE void sum_block(const problem<I>& p, const block<I::dim>& membe
   }
 }
 
-/// sum_block() for number k of a list of blocks that are summed one after the other.
+/// sum_block() for number k of a list of blocks, of which a thread sums many one after the other.
 template <class I, class Probe>
-void sum_block_of(const problem<I>& p, const column<block<I::dim>>& blocks, std::size_t k, Probe& probe) {
+[[gnu::always_inline]] inline void sum_block_of(const problem<I>& p, const column<block<I::dim>>& blocks, std::size_t k,
+                                                Probe& probe) {
   fetch_next_block(p, blocks, k);
   sum_block(p, blocks[k], probe);
 }

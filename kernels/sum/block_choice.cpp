@@ -16,6 +16,7 @@ constexpr std::array widths{16, 8, 4, 2};
 /// Sorted, each once.
 template <class V>
 std::vector<V> distinct(std::vector<V> all) {
+  all.erase(std::unique(all.begin(), all.end()), all.end());  // there are runs, and sorting what is left costs less
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

@@ -36,8 +36,7 @@ block_shape block_shape::parse(const std::string& word) {
   if (failed != std::errc() || at != end || std::ranges::count(word, ':') > 2 || name == shape_names.end() ||
       order == order_names.end() || width < 2 || width > widest)
     throw error("block must be auto, slab:N, pencil:N or brick:N with N from 2 to " + std::to_string(widest) +
-                " cells, and :bundles or :morton if its cells are to be in another order than row after row, is \"" + word +
-                "\"");
+                " cells, and :bundles or :morton if its cells are not to be in rows, is \"" + word + "\"");
   return {static_cast<int>(name - shape_names.begin()) + 1, width,
           static_cast<cell_order>(order - order_names.begin())};
 }

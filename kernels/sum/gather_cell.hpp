@@ -12,7 +12,6 @@ PAIRSUM_SAME_CODE void gather_cell(const problem<I>& p, std::size_t cell, Probe&
   constexpr unsigned stencil = cells<I::dim>::stencil;
   const auto& c = p.cells();
   const cell_range& own = c.range[cell];
-  fetch_for_next(p, cell, false);
   range_list<stencil> around, boundary;
   for (unsigned n = 0; n < stencil; ++n) {
     const cell_range& other = c.range[c.neighbour(cell, n)];
@@ -31,6 +30,13 @@ PAIRSUM_SAME_CODE void gather_cell(const problem<I>& p, std::size_t cell, Probe&
     }
     gather_one(p, i, others, boundary, probe);
   }
+}
+
+/// gather_cell() for one of many cells that are summed in the order of the grid.
+template <class I, class Probe>
+[[gnu::always_inline]] inline void gather_cell_in_order(const problem<I>& p, std::size_t cell, Probe& probe) {
+  fetch_for_next_cell<false>(p, cell);
+  gather_cell(p, cell, probe);
 }
 
 }  // namespace pairsum

@@ -58,10 +58,11 @@ struct running_error {
   friend bool operator<(const running_error& a, const running_error& b) { return a.v < b.v; }
   friend bool operator==(const running_error& a, const running_error& b) { return a.v == b.v; }
 
+  /// Vector units may give a neighbour of the rounded root, which is less than three times `rounded` off.
   friend running_error square_root(const running_error& a) {
     const R v = std::sqrt(a.v);
     const double root = static_cast<double>(v);
-    return {v, (a.e < a.size() ? a.e / root : std::sqrt(a.e)) + rounded(v)};
+    return {v, (a.e < a.size() ? a.e / root : std::sqrt(a.e)) + 3 * rounded(v)};
   }
   /// The C library's exp is within 1 ulp, twice `rounded`; doubled again for safety.
   friend running_error exponential(const running_error& a) {

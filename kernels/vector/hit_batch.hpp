@@ -64,9 +64,10 @@ HWY_INLINE Mask decide_near_ties(const tile_problem<I>& t, Mask in, V r2, typena
 ///     formula; u_i += to_i            u_i in registers, summed over the lanes behind the last vector
 ///     u_j += to_j                     row by row
 ///
-/// A core waits for so many vector instructions at most, fewer than two vectors of pairs have. So, where lanes are of
-/// four bytes and half the instructions are loads and transposition, these run a few vectors ahead, in a loop of their
-/// own; with lanes of eight bytes the stores that takes cost more than it brings.
+/// A core's scheduler holds fewer waiting vector instructions than two vectors of pairs have, so the loads of the next
+/// one cannot begin early. Where both sides are updated and lanes have four bytes, with which half the instructions are
+/// loads and transposition, these run a few vectors ahead in a loop of their own; elsewhere storing and reloading their
+/// results costs more than it gains.
 template <class I, class V>
 class alignas(4096) hit_batch {
   using tiles = tile_problem<I>;

@@ -150,6 +150,7 @@ template <class V, std::size_t P>
 HWY_INLINE void transpose_for_lanes(V (&v)[P]) {
 #if HWY_CAP_GE512
   if constexpr (sizeof(hn::TFromV<V>) == 8) {
+    static_assert(P == 4);
     const hn::DFromV<V> d;
     const V a = hn::InterleaveLower(d, v[0], v[1]), b = hn::InterleaveLower(d, v[2], v[3]);
     const V e = hn::InterleaveUpper(d, v[0], v[1]), f = hn::InterleaveUpper(d, v[2], v[3]);

@@ -10,7 +10,7 @@ namespace pairsum {
 ///   copy the candidates of the cell together                          nearby
 ///   for i in cell:
 ///     hits(i) = candidates that pass the test, packed without gaps    a vector of tests at a time
-///   for each vector of hits j, whosever they are:                     full but for the last of each i
+///   for i in cell, for each vector of its hits j:                     full but for the last
 ///     load the rows of its particles, transposed                      load_rows
 ///     c = f(i, j), 0 in lanes out of reach
 ///     u_i += c.to_i                                                   lane by lane, summed at the end
@@ -34,7 +34,7 @@ class tile_kernel {
     near_list near;
     batch b(t, spare);
     for (std::size_t k = 0; k < n; ++k) {
-      fetch_ahead<symmetric>(t, cell, n, k);
+      fetch_rows_ahead<symmetric>(t, cell, n, k);
       sum_cell<symmetric>(t, cell[k], near, b);
     }
   }

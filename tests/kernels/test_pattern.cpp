@@ -105,6 +105,20 @@ TYPED_TEST(pattern_test, coverage_check_rejects) {
   EXPECT_FALSE(covers_each_pair_once<TypeParam::value>(2)) << "-1 and +1 are one cell";
   EXPECT_FALSE(covers_each_pair_once<TypeParam::value>(4, pattern::b(TypeParam::value) - 1));
 }
+TYPED_TEST(pattern_test, ahead_are_all_that_are_one_step_ahead) {
+  constexpr int D = TypeParam::value;
+  std::vector<unsigned> all, half, expected, expected_half;
+  pattern::each_ahead<D, false>([&](unsigned code) { all.push_back(code); });
+  pattern::each_ahead<D, true>([&](unsigned code) { half.push_back(code); });
+  for (unsigned code = 0; code < pattern::stencil_cells<D>; ++code) {
+    if (pattern::neighbour_offset<D>(code)[0] != 1) continue;
+    expected.push_back(code);
+    if (code > pattern::stencil_centre<D>) expected_half.push_back(code);
+  }
+  EXPECT_EQ(all, expected);
+  EXPECT_EQ(half, expected_half);
+}
+
 TYPED_TEST(pattern_test, blocks_of_a_pass_share_no_cell) {
   EXPECT_TRUE(passes_are_conflict_free<TypeParam::value>(4));
   EXPECT_TRUE(passes_are_conflict_free<TypeParam::value>(8));

@@ -187,7 +187,8 @@ TEST_P(tiles_test, every_block_is_within_the_bound) {
   const scene s = make_scene("dam_break", 0.05, "perturbed");
   setup world = with(s.world, GetParam(), 5);
   const auto expected = registry::instance().make_reference(world)->brute_force(s.particles, some_threads());
-  for (const char* block : {"auto", "slab:2", "slab:8", "pencil:2", "pencil:4", "brick:2", "brick:16"}) {
+  for (const char* block : {"auto", "slab:2", "slab:8", "pencil:2", "pencil:4", "brick:2", "brick:16", "slab:4:bundles",
+                            "pencil:2:bundles", "brick:4:morton"}) {
     world.block = block;
     const auto alone = evaluated(world, s.particles, 1);
     EXPECT_EQ(disagreement(alone->rates(), expected), "") << block;
