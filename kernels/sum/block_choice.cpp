@@ -41,7 +41,8 @@ std::size_t blocks_of(std::vector<V> places, int width) {
   return distinct(std::move(places)).size();
 }
 
-/// What a sweep has in use at a time: a brick with a rim; of a pencil, by rule of thumb, 4 cells of its length.
+/// What a sweep has in use at a time: a brick with a rim; of a pencil, by rule of thumb, 4 cells of its length (all of
+/// it comes back row after row, but is asked for ahead).
 std::size_t cells_in_use(int dim, int axes, int width) {
   return (axes < dim ? 4 : 1) * power(static_cast<std::size_t>(width) + 2, axes);
 }

@@ -22,8 +22,8 @@ block_limits limits_of(std::size_t cache_bytes, std::size_t bytes_per_cell, std:
 ///
 /// Pencils come first because their rows are whole: a million particles on one thread take, relative to brick:4,
 ///
-///     slab:2 0.87    pencil:2 0.95    pencil:8  0.86    brick:8  0.92
-///     slab:4 0.86    pencil:4 0.90    pencil:16 0.85    brick:16 0.87
+///     slab:2 0.68    pencil:2 0.75    pencil:8  0.67    brick:8  0.79
+///     slab:4 0.68    pencil:4 0.69    pencil:16 0.66    brick:16 0.74
 ///
 /// and slabs are too few for many threads.
 template <int D>
