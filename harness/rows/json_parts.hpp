@@ -32,6 +32,7 @@ nlohmann::json head(const char* kind, const Row& row) {
   return j;
 }
 
+/// Reads them; an error says which is wrong.
 template <class Row>
 void read_head(fields& from, const char* kind, Row& row) {
   from.literal("schema", row_schema);
