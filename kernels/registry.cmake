@@ -12,6 +12,13 @@ set(PAIRSUM_ALL_BACKENDS
   tiles_omp
   tiles_tbb
   naive_tiles_omp
+  atomic_add
+  thread_private
+  touched_blocks
+  per_pass_buffers
+  colour18
+  colour4
+  half_cells
 )
 set(PAIRSUM_ALL_SMOOTHED_INTERACTIONS  # those that take a smoothing kernel
   ferrari09

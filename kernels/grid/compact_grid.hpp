@@ -23,6 +23,7 @@ class compact_grid final : public grid<D, R> {
   compact_grid(const box<D, R>& omega, R H);
 
   bool adapt(const particle_set<D, R>& p, std::size_t moved, const team& t) override;
+  const cell_scale<D, R>& scale() const override { return scale_; }
   /// The cells that hold particles.
   std::size_t total_cells() const override { return total_; }
   int key_bits() const override;

@@ -21,6 +21,7 @@ class dense_grid final : public grid<D, R> {
   /// Refuses a box of more than 2^30 cells, or whose table is larger than the machine's memory, before anything is
   /// allocated.
   bool adapt(const particle_set<D, R>& p, std::size_t moved, const team& t) override;
+  const cell_scale<D, R>& scale() const override { return scale_; }
   std::size_t total_cells() const override { return static_cast<std::size_t>(box_.cells()); }
   int key_bits() const override { return linear_.bits(); }
   void keys(const particle_set<D, R>& p, std::size_t begin, std::size_t end,

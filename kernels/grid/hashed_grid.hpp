@@ -20,6 +20,7 @@ class hashed_grid final : public grid<D, R> {
   /// omega: where particles may be (m). H: support radius (m). M: 2 <= M and D M <= 30, else an error that says so.
   hashed_grid(const box<D, R>& omega, R H, int M);
 
+  const cell_scale<D, R>& scale() const override { return scale_; }
   std::size_t total_cells() const override { return table_.size(); }
   int key_bits() const override { return D * M_; }
   void keys(const particle_set<D, R>& p, std::size_t begin, std::size_t end,

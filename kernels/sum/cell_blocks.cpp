@@ -6,21 +6,13 @@
 #include <unordered_map>
 
 #include "core/error.hpp"
+#include "grid/place_hash.hpp"
 
 namespace pairsum {
 namespace {
 
 template <int D>
-struct hash {
-  std::size_t operator()(const ivec<D>& v) const {
-    std::uint64_t h = 0;
-    for (const std::int64_t a : v) h = (h ^ static_cast<std::uint64_t>(a)) * 0x9e3779b97f4a7c15u;
-    return static_cast<std::size_t>(h ^ h >> 32);
-  }
-};
-
-template <int D>
-using numbers = std::unordered_map<ivec<D>, std::uint32_t, hash<D>>;
+using numbers = std::unordered_map<ivec<D>, std::uint32_t, place_hash<D>>;
 
 /// Bits of the coordinates in turns, the first axis' lowest.
 template <int D>
