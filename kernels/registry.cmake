@@ -18,6 +18,8 @@ set(PAIRSUM_ALL_BACKENDS
   per_pass_buffers
   colour18
   colour4
+  pair_list_omp
+  verlet_list
   half_cells
 )
 set(PAIRSUM_ALL_SMOOTHED_INTERACTIONS  # those that take a smoothing kernel

@@ -58,6 +58,15 @@ bool indexer<D, R>::inside(const particle_set<D, R>& p, std::size_t begin, std::
   return out == 0;
 }
 
+template <int D, class R>
+bool indexer<D, R>::holds(const particle_set<D, R>& p, const team& t) const {
+  if (!known_ || keys_.size() != p.size()) return false;
+  std::vector<std::uint8_t> in(static_cast<std::size_t>(t.threads()), 1);
+  t.for_pieces(fluid_,
+               [&](std::size_t begin, std::size_t end, std::size_t piece) { in[piece] = inside(p, begin, end); });
+  return std::ranges::count(in, 0) == 0;
+}
+
 /// The keys of a chunk of particles, their kind in the highest bits. Those that are outside Omega become lost.
 template <int D, class R>
 void indexer<D, R>::keys_of(particle_set<D, R>& p, std::size_t begin, std::size_t end, std::uint32_t* out,

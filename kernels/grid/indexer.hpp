@@ -29,6 +29,9 @@ class indexer {
   /// Other particles come, or boundary was moved: the next build looks at all of them.
   void forget() { known_ = false; }
 
+  /// Are the particles, as far as is known, those of the last build, and is all fluid still in Omega?
+  bool holds(const particle_set<D, R>& p, const team& t) const;
+
   const cells<D>& view() const { return ranges_.view(); }
   std::size_t fluid() const { return fluid_; }        ///< fluid particles are [0, fluid())
   std::size_t boundary() const { return boundary_; }  ///< boundary particles follow

@@ -30,6 +30,14 @@ class range_list {
   unsigned n_ = 0;
 };
 
+/// Candidates that were listed one by one.
+struct index_list {
+  const std::uint32_t *first, *last;
+  const std::uint32_t* begin() const { return first; }
+  const std::uint32_t* end() const { return last; }
+  bool empty() const { return first == last; }
+};
+
 /// Finds the candidates of one particle that are in reach. Two steps instead of one loop: the first only tests
 /// distances and packs the indices that pass without a branch, the second (the visitor) runs the formula on those
 /// alone; so the branch predictor never has to guess a distance.
@@ -65,6 +73,26 @@ class candidate_filter {
     return total;
   }
 
+  template <class Visit>
+  [[gnu::always_inline]] static std::size_t each_in_reach(const positions<D, R>& x, const vec<D, R>& x_i, R reach2,
+                                                          const index_list& list, Visit&& visit) {
+    constexpr std::ptrdiff_t piece = 256;
+    std::uint32_t hits[piece + 1];
+    std::size_t total = 0;
+    for (const std::uint32_t* begin = list.first; begin != list.last;) {
+      const std::uint32_t* const end = list.last - begin > piece ? begin + piece : list.last;
+      std::size_t n = 0;
+      for (; begin != end; ++begin) {
+        hits[n] = *begin;
+        n += norm2<D, R>(x_i - x[*begin]) < reach2;
+      }
+      for (std::size_t k = 0; k < n; ++k) visit(hits[k]);
+      total += n;
+    }
+    return total;
+  }
+
+  static std::uint64_t size(const index_list& list) { return static_cast<std::uint64_t>(list.last - list.first); }
   template <class Ranges>
   static std::uint64_t size(const Ranges& ranges) {
     std::uint64_t n = 0;

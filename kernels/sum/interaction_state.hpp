@@ -137,7 +137,7 @@ class interaction_state : public state<I::dim, typename I::real> {
 
  protected:
   // Not inline: each backend would compile its own copies.
-  explicit interaction_state(const setup& s);
+  interaction_state(const setup& s, double skin);
   ~interaction_state() override;
 
   /// Derives what the formula needs of the particles as indexed last.
@@ -151,7 +151,7 @@ class interaction_state : public state<I::dim, typename I::real> {
 };
 
 template <interaction I>
-interaction_state<I>::interaction_state(const setup& s) : base(s), columns_(s.constants) {}
+interaction_state<I>::interaction_state(const setup& s, double skin) : base(s, skin), columns_(s.constants) {}
 template <interaction I>
 interaction_state<I>::~interaction_state() = default;
 
