@@ -42,6 +42,7 @@ set(PAIRSUM_ALL_SMOOTHINGS
 set(PAIRSUM_ALL_CASES
   dam_break
   lattice
+  periodic_lattice
   random_uniform
   random_clustered
 )

@@ -108,7 +108,7 @@ struct half_cells {
     [[gnu::always_inline]] void scatter(const problem<I>& p, std::uint32_t i, const range_of_members& fluid,
                                         const range_of_members& boundary, Probe& probe) {
       const positions<D, real> x = order.x();
-      const vec<D, real> x_i = x[i];
+      const auto x_i = x.point_of(i);
       const auto a = p.fluid.load(order[i]);
       auto u_i = zero<rates_of<I>>();
       const std::size_t n = filter_of<I>::each_in_reach(

@@ -74,7 +74,7 @@ void cell_ranges<D>::make(std::span<const std::uint32_t> keys, std::size_t fluid
   ++cells_.revision;
   for (int d = 0; d < D; ++d) {
     cells_.low[d] = static_cast<double>(g.scale().low[d]);
-    cells_.per_metre[d] = static_cast<double>(g.scale().inv_w);
+    cells_.per_metre[d] = static_cast<double>(g.scale().inv_w[d]);
   }
   g.connect(cell_keys_, cells_, t);
   cells_.total = g.total_cells();

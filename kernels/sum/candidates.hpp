@@ -45,13 +45,14 @@ template <int D, class R>
 class candidate_filter {
  public:
   /// Calls visit(j) for every j of the ranges with |x_i - x_j|^2 < reach2, in ascending order within a range; returns
-  /// the number.
+  /// the number. Near a face of a periodic box x_i - x_j may go through it.
   template <class Ranges, class Visit>
   [[gnu::always_inline]] static std::size_t each_in_reach(const positions<D, R>& x, const vec<D, R>& x_i, R reach2,
                                                           const Ranges& ranges, Visit&& visit) {
     constexpr std::uint32_t piece = 256;
     std::uint32_t hits[2 * piece];
     std::size_t n = 0, total = 0;
+    const torus<D, R>* const across = x.omega.seen_from(x_i);
     const auto flush = [&]() __attribute__((always_inline)) {
       for (std::size_t k = 0; k < n; ++k) visit(hits[k]);
       total += n;
@@ -60,10 +61,17 @@ class candidate_filter {
     for (const index_range& range : ranges) {
       for (std::uint32_t begin = range.begin; begin < range.end; begin += piece) {
         const std::uint32_t end = range.end - begin > piece ? begin + piece : range.end;
+        if (across == nullptr) [[likely]] {
 #pragma GCC unroll 4
-        for (std::uint32_t j = begin; j < end; ++j) {
-          hits[n] = j;
-          n += norm2<D, R>(x_i - x[j]) < reach2;
+          for (std::uint32_t j = begin; j < end; ++j) {
+            hits[n] = j;
+            n += norm2<D, R>(x_i - x[j]) < reach2;
+          }
+        } else {
+          for (std::uint32_t j = begin; j < end; ++j) {
+            hits[n] = j;
+            n += norm2<D, R>(across->shortest(x_i - x[j])) < reach2;
+          }
         }
         if (n > piece) [[unlikely]]
           flush();
@@ -79,12 +87,13 @@ class candidate_filter {
     constexpr std::ptrdiff_t piece = 256;
     std::uint32_t hits[piece + 1];
     std::size_t total = 0;
+    const point<D, R> from{x_i, x.omega.seen_from(x_i)};
     for (const std::uint32_t* begin = list.first; begin != list.last;) {
       const std::uint32_t* const end = list.last - begin > piece ? begin + piece : list.last;
       std::size_t n = 0;
       for (; begin != end; ++begin) {
         hits[n] = *begin;
-        n += norm2<D, R>(x_i - x[*begin]) < reach2;
+        n += norm2<D, R>(from - x[*begin]) < reach2;
       }
       for (std::size_t k = 0; k < n; ++k) visit(hits[k]);
       total += n;

@@ -23,14 +23,13 @@ class coloured_cells {
     unsigned colours = 1;
     for (int d = 0; d < D; ++d) {
       stride[d] = colours;
-      colours *= pattern::axis_colours(c.period_along(d), spacing(d));
+      colours *= pattern::axis_colours(c.period[d], spacing(d));
     }
     by_colour_.resize(colours);
     for (auto& list : by_colour_) list.clear();
     for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) {
       unsigned colour = 0;
-      for (int d = 0; d < D; ++d)
-        colour += stride[d] * pattern::axis_colour(c.place[cell][d], c.period_along(d), spacing(d));
+      for (int d = 0; d < D; ++d) colour += stride[d] * pattern::axis_colour(c.place[cell][d], c.period[d], spacing(d));
       by_colour_[colour].push_back(static_cast<std::uint32_t>(cell));
     }
     std::erase_if(by_colour_, [](const auto& list) { return list.empty(); });

@@ -22,14 +22,14 @@ class pack_numbers {
     ivec<D> at, pack;
     int ends = 0;
     for (int d = 0; d < D; ++d) {
-      const std::int64_t period = c.period_along(d);
+      const std::int64_t period = c.period[d];
       at[d] = period == 0 ? base[d] + 8 : (base[d] + period) % period;  // a base cell may lie at -1
       ends += at[d] % 4 == 0 || at[d] % 4 == 3;
     }
     const bool shifted = ends > 1;
     unsigned parity = 0;
     for (int d = 0; d < D; ++d) {
-      const std::int64_t period = c.period_along(d);
+      const std::int64_t period = c.period[d];
       pack[d] = (at[d] + (shifted ? 2 : 0)) / 4;
       if (period % 4 == 0 && period > 0) pack[d] %= period / 4;
       parity ^= static_cast<unsigned>(pack[d] & 1);

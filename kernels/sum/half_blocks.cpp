@@ -12,13 +12,13 @@ void half_blocks<D>::build(const cells<D>& c, const team& t) {
   unsigned colours = 1;
   for (int d = 0; d < D; ++d) {
     stride[d] = colours;
-    colours *= pattern::axis_colours(2 * c.period_along(d), 3);
+    colours *= pattern::axis_colours(2 * c.period[d], 3);
   }
   // The colour of a block that begins in part `part` of the base cell.
   const auto colour_of = [&](const ivec<D>& base, unsigned part) {
     unsigned colour = 0;
     for (int d = 0; d < D; ++d) {
-      const std::int64_t period = c.period_along(d);
+      const std::int64_t period = c.period[d];
       const std::int64_t cell = period == 0 ? base[d] + 3 : (base[d] + period) % period;  // a base cell may lie at -1
       colour += stride[d] * pattern::axis_colour(2 * cell + (part >> d & 1), 2 * period, 3);
     }

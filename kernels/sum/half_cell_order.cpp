@@ -45,6 +45,7 @@ void half_cell_order<D, R>::sort_run(const cells<D>& c, std::size_t first, std::
 template <int D, class R>
 void half_cell_order<D, R>::build(const positions<D, R>& x, const cells<D>& c, std::size_t count, const team& t) {
   order_.resize(count);
+  omega_ = x.omega;
   part_.resize(count);
   for (auto& column : x_) column.resize(count);
   range_.resize(c.range.size() * parts);

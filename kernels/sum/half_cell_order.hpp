@@ -20,6 +20,7 @@ class half_cell_order {
   /// Positions in this order.
   positions<D, R> x() const {
     positions<D, R> sorted;
+    sorted.omega = omega_;
     for (int d = 0; d < D; ++d) sorted.column[d] = x_[d].data();
     return sorted;
   }
@@ -35,6 +36,7 @@ class half_cell_order {
   column<std::uint32_t> order_;
   column<std::uint8_t> part_;  ///< by particle
   std::array<column<R>, D> x_;
+  torus<D, R> omega_;
   column<cell_range> range_;
 };
 
