@@ -1,5 +1,5 @@
-# Writes the enrolment, so that a change compiles little: per (dimension, precision) one source for a few backends, and for each
-# interaction one with what the backends share and one with the reference. A last one calls them all.
+# Writes the enrolment, so that a change compiles little: per (dimension, precision) one source for a few backends, one with what
+# the backends share and one with the reference. A last one calls them all.
 
 # Backends of one source. Half of what one alone costs is reading and instantiating what they have in common, so that four
 # together take 60 % of the time of four apart; with more, a change in one backend would compile too many others again.
@@ -15,13 +15,10 @@ function(pairsum_write path text)
   file(WRITE ${path} "${text}")
 endfunction()
 
-# The types of an interaction in one dimension and precision, all of them without `interaction`. Precision mixed is for lanes.
-function(pairsum_types out dim precision interaction)
+# The types of all interactions in one dimension and precision. Precision mixed is for lanes.
+function(pairsum_types out dim precision)
   set(types "")
   foreach(i IN LISTS BUILT_INTERACTIONS)
-    if(interaction AND NOT i STREQUAL interaction)
-      continue()
-    endif()
     if(precision STREQUAL mixed)
       if(i IN_LIST PAIRSUM_SCALAR_INTERACTIONS)
         continue()
@@ -137,20 +134,14 @@ function(pairsum_enrol out_sources folder)
   foreach(dim IN LISTS BUILT_DIMS)
     foreach(precision IN LISTS BUILT_PRECISIONS)
       set(where "${dim}_${precision}")
-      foreach(i IN LISTS BUILT_INTERACTIONS)
-        pairsum_types(types ${dim} ${precision} ${i})
-        if(NOT types)
-          continue()
-        endif()
-        set(head "#include \"interactions/${i}.hpp\"\n#include \"sum/mixed.hpp\"\n${smoothing_includes}")
-        pairsum_each(shared "PAIRSUM_SHARE(, @)" ${types})
-        pairsum_write(${folder}/shared_${i}_${where}.cpp
-          "// generated\n#include \"sum/share.hpp\"\n${head}namespace pairsum {\n${shared}}\n")
-        list(APPEND sources ${folder}/shared_${i}_${where}.cpp)
-        pairsum_each(body "  enrol_oracle<@>(r);" ${types})
-        pairsum_source(reference_${i}_${where} "#include \"sum/enrol_oracle.hpp\"\n${head}" "${body}")
-      endforeach()
-      pairsum_types(types ${dim} ${precision} "")
+      pairsum_types(types ${dim} ${precision})
+      set(head "#include \"sum/mixed.hpp\"\n${interaction_includes}${smoothing_includes}")
+      pairsum_each(shared "PAIRSUM_SHARE(, @)" ${types})
+      pairsum_write(${folder}/shared_${where}.cpp
+        "// generated\n#include \"sum/share.hpp\"\n${head}namespace pairsum {\n${shared}}\n")
+      list(APPEND sources ${folder}/shared_${where}.cpp)
+      pairsum_each(body "  enrol_oracle<@>(r);" ${types})
+      pairsum_source(reference_${where} "#include \"sum/enrol_oracle.hpp\"\n${head}" "${body}")
       pairsum_each(shared "PAIRSUM_SHARE(extern, @)" ${types})
       pairsum_each(declared "template <> std::vector<tile_kernels<@>> vector_kernels<@>();" ${types})
       string(APPEND shared "${declared}")
