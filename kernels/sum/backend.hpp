@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/team.hpp"
+#include "sum/conflict_avoidance.hpp"
 #include "sum/probe.hpp"
 #include "sum/problem.hpp"
 
@@ -23,6 +24,7 @@ struct backend_traits {
   granularity loop{};            ///< how it shares out its loops unless the team says; none without such loops
   bool vector = false;           ///< runs on vector units, of which setup::isa chooses
   bool blocks = false;           ///< goes over blocks of cells, which setup::block shapes
+  conflict_avoidance conflicts = conflict_avoidance::unsaid;  ///< how threads are kept apart
 
   /// How often a sum goes over the particles in `dim` dimensions.
   constexpr int sweeps(int dim) const { return sweeps_per_colour ? 1 << dim : 1; }
