@@ -113,10 +113,7 @@ int verify(const verify_options& o) {
   q.states = parse_words("--state", o.state);
   q.M = parse_counts("--M", o.M, 0);
   q.threads = parse_counts("--threads", o.threads, usable_cores());
-  std::vector<std::string> usable;
-  for (const backend_entry& b : r.backends())
-    if (b.unavailable.empty()) usable.emplace_back(b.traits.name);
-  q.backends = words_or_all("--backend", o.backend, usable);
+  q.backends = words_or_all("--backend", o.backend, available_backends(r));
   q.precisions = words_or_all("--precision", o.precision, r.precisions());
   q.interactions = words_or_all("--interaction", o.interaction, r.interactions());
   q.smoothings = words_or_all("--smoothing", o.smoothing, r.smoothings());

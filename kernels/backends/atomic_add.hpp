@@ -46,7 +46,8 @@ struct atomic_add {
                                          .evaluations_per_pair = 1,
                                          .sweeps_per_colour = false,
                                          .keeps_pairs = false,
-                                         .loop = {schedule::dynamic, 32}};
+                                         .loop = {schedule::dynamic, 32},
+                                         .conflicts = conflict_avoidance::atomics};
 
   template <class I>
   struct workspace {

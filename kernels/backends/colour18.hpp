@@ -32,7 +32,8 @@ struct colour18 {
                                          .sweeps_per_colour = true,
                                          .keeps_pairs = false,
                                          .loop = {schedule::dynamic, 32},
-                                         .colours = {2, 6, 18}};
+                                         .colours = {2, 6, 18},
+                                         .conflicts = conflict_avoidance::colours};
 
   template <class I>
   struct workspace {

@@ -34,7 +34,8 @@ struct colour4 {
       .sweeps_per_colour = true,
       .keeps_pairs = false,
       .loop = {schedule::dynamic, 2},
-      .colours = {2, 3, 4}};
+      .colours = {2, 3, 4},
+      .conflicts = conflict_avoidance::colours};
 
   template <class I>
   struct workspace {

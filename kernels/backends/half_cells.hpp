@@ -35,7 +35,8 @@ struct half_cells {
                                          .keeps_pairs = false,
                                          .loop = {schedule::dynamic, 64},
                                          .cells_per_reach = 2,
-                                         .colours = {3, 9, 27}};
+                                         .colours = {3, 9, 27},
+                                         .conflicts = conflict_avoidance::colours};
 
   template <class I>
   struct workspace {

@@ -21,7 +21,8 @@ struct pair_list {
       .accumulates = true,
       .evaluations_per_pair = 1,
       .sweeps_per_colour = false,
-      .keeps_pairs = true};
+      .keeps_pairs = true,
+      .conflicts = conflict_avoidance::serial};
 
   template <class I>
   struct workspace {

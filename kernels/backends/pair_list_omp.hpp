@@ -31,7 +31,8 @@ struct pair_list_omp {
       .sweeps_per_colour = false,
       .keeps_pairs = true,
       .loop = {schedule::dynamic, 1},
-      .blocks = true};
+      .blocks = true,
+      .conflicts = conflict_avoidance::colours};
 
   template <class I>
   struct workspace {

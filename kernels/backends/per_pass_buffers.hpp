@@ -31,7 +31,8 @@ struct per_pass_buffers {
       .evaluations_per_pair = 1,
       .sweeps_per_colour = true,
       .keeps_pairs = false,
-      .loop = {schedule::dynamic, 32}};
+      .loop = {schedule::dynamic, 32},
+      .conflicts = conflict_avoidance::copies};
 
   template <class I>
   struct workspace : coloured_workspace<I> {

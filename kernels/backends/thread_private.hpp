@@ -32,7 +32,8 @@ struct thread_private {
       .evaluations_per_pair = 1,
       .sweeps_per_colour = false,
       .keeps_pairs = false,
-      .loop = {schedule::dynamic, 32}};
+      .loop = {schedule::dynamic, 32},
+      .conflicts = conflict_avoidance::copies};
 
   template <class I>
   struct workspace {

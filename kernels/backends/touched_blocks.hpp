@@ -35,7 +35,8 @@ struct touched_blocks {
       .evaluations_per_pair = 1,
       .sweeps_per_colour = false,
       .keeps_pairs = false,
-      .loop = {schedule::dynamic, 1}};
+      .loop = {schedule::dynamic, 1},
+      .conflicts = conflict_avoidance::copies};
 
   template <class I>
   struct workspace {

@@ -36,7 +36,8 @@ struct verlet_list {
       .keeps_pairs = false,
       .loop = {schedule::dynamic, 1},
       .blocks = true,
-      .skin = 0.1};
+      .skin = 0.1,
+      .conflicts = conflict_avoidance::colours};
 
   template <class I>
   class workspace {
