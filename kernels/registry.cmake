@@ -9,6 +9,7 @@ set(PAIRSUM_ALL_BACKENDS
   symmetric
   symmetric_omp
   symmetric_tbb
+  sliced_locks
   tiles_omp
   tiles_tbb
   naive_tiles_omp

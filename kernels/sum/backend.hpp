@@ -24,7 +24,7 @@ struct backend_traits {
   granularity loop{};            ///< how it shares out its loops unless the team says; none without such loops
   bool vector = false;           ///< runs on vector units, of which setup::isa chooses
   bool blocks = false;           ///< goes over blocks of cells, which setup::block shapes
-  std::array<int, 3> colours{2, 4, 8};  ///< of its pattern in 1D, 2D and 3D, if it sweeps per colour
+  std::array<int, 3> colours{2, 4, 8};  ///< of a symmetric pattern in 1D, 2D and 3D: passes with a barrier between
 
   /// How often a sum goes over the particles in `dim` dimensions.
   constexpr int sweeps(int dim) const { return sweeps_per_colour ? colours[static_cast<std::size_t>(dim - 1)] : 1; }
