@@ -10,6 +10,7 @@ set(PAIRSUM_ALL_BACKENDS
   symmetric_omp
   symmetric_tbb
   sliced_locks
+  sliced_2colour
   tiles_omp
   tiles_tbb
   naive_tiles_omp
