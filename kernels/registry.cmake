@@ -11,6 +11,7 @@ set(PAIRSUM_ALL_BACKENDS
   symmetric_tbb
   sliced_locks
   sliced_2colour
+  task_conflicts
   tiles_omp
   tiles_tbb
   naive_tiles_omp
