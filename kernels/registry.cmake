@@ -9,6 +9,9 @@ set(PAIRSUM_ALL_BACKENDS
   symmetric
   symmetric_omp
   symmetric_tbb
+  sliced_locks
+  sliced_2colour
+  task_conflicts
   tiles_omp
   tiles_tbb
   naive_tiles_omp

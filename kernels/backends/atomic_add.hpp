@@ -47,6 +47,7 @@ struct atomic_add {
                                          .sweeps_per_colour = false,
                                          .keeps_pairs = false,
                                          .loop = {schedule::dynamic, 32},
+                                         .colours = {1, 1, 1},
                                          .conflicts = conflict_avoidance::atomics};
 
   template <class I>

@@ -29,9 +29,10 @@ struct per_pass_buffers {
       .deterministic = true,
       .accumulates = true,
       .evaluations_per_pair = 1,
-      .sweeps_per_colour = true,
+      .sweeps_per_colour = false,
       .keeps_pairs = false,
       .loop = {schedule::dynamic, 32},
+      .colours = {1, 1, 1},
       .conflicts = conflict_avoidance::copies};
 
   template <class I>

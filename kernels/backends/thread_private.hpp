@@ -33,6 +33,7 @@ struct thread_private {
       .sweeps_per_colour = false,
       .keeps_pairs = false,
       .loop = {schedule::dynamic, 32},
+      .colours = {1, 1, 1},
       .conflicts = conflict_avoidance::copies};
 
   template <class I>

@@ -36,6 +36,7 @@ struct touched_blocks {
       .sweeps_per_colour = false,
       .keeps_pairs = false,
       .loop = {schedule::dynamic, 1},
+      .colours = {1, 1, 1},
       .conflicts = conflict_avoidance::copies};
 
   template <class I>

@@ -27,7 +27,7 @@ struct backend_traits {
   bool blocks = false;           ///< goes over blocks of cells, which setup::block shapes
   int cells_per_reach = 1;       ///< how many of the cells that it sorts particles into span the reach
   double skin = 0;               ///< of its lists, in units of H: they serve until a particle has moved by half of it
-  std::array<int, 3> colours{2, 4, 8};  ///< of its pattern in 1D, 2D and 3D, if it sweeps per colour
+  std::array<int, 3> colours{2, 4, 8};  ///< of a symmetric pattern in 1D, 2D and 3D: passes with a barrier between
   conflict_avoidance conflicts = conflict_avoidance::unsaid;  ///< how threads are kept apart
 
   /// How often a sum goes over the particles in `dim` dimensions.

@@ -27,11 +27,11 @@ std::uint64_t morton_code(const ivec<D>& at) {
 }  // namespace
 
 template <int D>
-void cell_blocks<D>::build(const cells<D>& c) {
+bool cell_blocks<D>::build(const cells<D>& c) {
   const auto end = c.place.begin() + static_cast<std::ptrdiff_t>(c.fluid_cells) + 1;
   if (c.period == period_ && c.fluid_cells + 1 == place_.size() &&
       std::equal(c.place.begin() + 1, end, place_.begin() + 1))
-    return;
+    return false;
   place_.clear();  // until all is done
   if (limits_) shape_ = choose_block(c, *limits_);
   const int axes = std::min(shape_.axes, D);
@@ -60,6 +60,7 @@ void cell_blocks<D>::build(const cells<D>& c) {
   place_in_order(c);
   place_.assign(c.place.begin(), end);
   period_ = c.period;
+  return true;
 }
 
 /// Blocks and the strands that make them are numbered as they are met in the order of the grid.

@@ -9,7 +9,7 @@
 #include "core/isa.hpp"
 #include "core/names.hpp"
 #include "core/team.hpp"
-#include "sum/cell_blocks.hpp"
+#include "sum/block_setup.hpp"
 #include "sum/gather_cell.hpp"
 #include "sum/half_stencil.hpp"
 #include "sum/setup.hpp"
@@ -40,11 +40,7 @@ class tile_workspace {
 
   /// Throws pairsum::error for an isa or a block that is not to be had.
   void configure(const setup& s) {
-    check_block(s.block);
-    if (s.block == "auto")
-      blocks_.shape(limits_of(s.cache_bytes, bytes_per_cell(s.dim), s.cores), !symmetric);
-    else
-      blocks_.shape(block_shape::parse(s.block), !symmetric);
+    shape_blocks(blocks_, s, bytes_per_cell(s.dim), !symmetric);
     check_isa(s.isa);
     excess_ = excess_in(s);
     for (int d = 0; d < I::dim; ++d) {
