@@ -1,7 +1,7 @@
 #pragma once
 // Tasks that exclude each other where they conflict, on oneTBB's flow graph. In 2D, four blocks that meet in a point:
 //
-//   +-------+-------+         tasks = blocks of cells, of colours 0..2^axes-1
+//   +-------+-------+         tasks = blocks of cells; colour: the first that is free
 //   |   2   |   3   |         two tasks conflict if they write to a common cell (their own, or a forward neighbour)
 //   |       |       |         conflict (a, b):  edge from the lower (colour, number) to the higher
 //   +-------+-------+

@@ -1,5 +1,6 @@
-// Two mistakes that symmetric_omp could contain; each must be reported, or silence about the
-// library proves nothing.
+// Mistakes that symmetric_omp and sliced_locks could contain; each must be reported, or silence about the library
+// proves nothing.
+#include "backends/sliced_locks.hpp"
 #include "contender.hpp"
 #include "sum/backend.hpp"
 #include "sum/block.hpp"
@@ -9,7 +10,7 @@ namespace {
 
 constexpr backend_traits traits_of_planted(std::string_view name) {
   return {.name = name,
-          .description = "symmetric_omp with a race",
+          .description = "a backend with a race",
           .aliases = "",
           .threads = runtime::omp,
           .symmetric = true,
@@ -73,10 +74,31 @@ struct one_colour {
   };
 };
 
+/// Nothing is locked where two slabs meet.
+struct no_locks {
+  struct guard {
+    guard(no_locks&, std::int32_t, std::int32_t) {}
+    ~guard() {}
+  };
+  void resize(std::size_t) {}
+};
+struct without_locks {
+  static constexpr backend_traits traits = traits_of_planted("without_locks");
+
+  template <class I>
+  struct workspace : sliced_workspace<I, no_locks> {
+    template <class Probe>
+    void sum(const problem<I>& p, const team& t, Probe& probe) {
+      sliced_workspace<I, no_locks>::sum(p, t, sliced_locks::traits.loop, probe);
+    }
+  };
+};
+
 }  // namespace
 
 const std::vector<contender>& planted_backends() {
-  static const std::vector<contender> all{contender::of<nowait>(), contender::of<one_colour>()};
+  static const std::vector<contender> all{contender::of<nowait>(), contender::of<one_colour>(),
+                                          contender::of<without_locks>()};
   return all;
 }
 
