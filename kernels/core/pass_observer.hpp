@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 
 namespace pairsum {
 
@@ -31,5 +32,11 @@ struct pass_marks {
     if (observer != nullptr) observer->pass_ends(pass);
   }
 };
+
+/// Tells marks that want to know that unit k of a pass, what one thread does without asking others, begins.
+template <class Marks>
+[[gnu::always_inline]] inline void mark_unit(Marks& marks, unsigned pass, std::size_t k) {
+  if constexpr (requires { marks.unit_begins(pass, k); }) marks.unit_begins(pass, k);
+}
 
 }  // namespace pairsum

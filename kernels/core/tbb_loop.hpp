@@ -12,14 +12,17 @@ namespace pairsum {
 
 /// One pass on the threads of the arena that the caller is in: f(begin) .. f(end-1), shared out as `g` says, with the
 /// marks of the pass; returns when the pass is done.
-template <class F>
-void tbb_pass(unsigned pass, std::size_t begin, std::size_t end, const granularity& g, const pass_marks& marks, F&& f) {
+template <class Marks, class F>
+void tbb_pass(unsigned pass, std::size_t begin, std::size_t end, const granularity& g, Marks& marks, F&& f) {
   using range = ::tbb::blocked_range<std::size_t>;
   const range all(begin, end, g.chunk);
   const auto piece = [&](const range& r) {
     const int thread = ::tbb::this_task_arena::current_thread_index();
     marks.work_begins(pass, thread);
-    for (std::size_t k = r.begin(); k < r.end(); ++k) f(k);
+    for (std::size_t k = r.begin(); k < r.end(); ++k) {
+      mark_unit(marks, pass, k);
+      f(k);
+    }
     marks.work_ends(pass, thread);
   };
   marks.pass_begins(pass);

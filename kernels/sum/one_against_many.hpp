@@ -24,11 +24,12 @@ template <class I, class Probe, class Ranges>
   }
 }
 
-/// Symmetric: each fluid pair (i, j in ranges) is computed once and updates both; i's sum stays in registers until the
-/// end.
-template <class I, class Probe, class FluidRanges, class BoundaryRanges>
-[[gnu::always_inline]] inline void scatter_one(const problem<I>& p, std::uint32_t i, const FluidRanges& fluid,
-                                               const BoundaryRanges& boundary, Probe& probe) {
+/// Symmetric: each fluid pair (i, j in ranges) is computed once and updates both, by u.add(particle, contribution); i's
+/// sum stays in registers until the end.
+template <class I, class Probe, class Rates, class FluidRanges, class BoundaryRanges>
+[[gnu::always_inline]] inline void scatter_one_to(const Rates& u, const problem<I>& p, std::uint32_t i,
+                                                  const FluidRanges& fluid, const BoundaryRanges& boundary,
+                                                  Probe& probe) {
   const auto x_i = p.position(i);
   const auto a = p.fluid.load(i);
   auto u_i = zero<rates_of<I>>();
@@ -37,7 +38,7 @@ template <class I, class Probe, class FluidRanges, class BoundaryRanges>
         const vec<I::dim, typename I::real> r = x_i - p.position(j);
         const auto c = p.formula->pair(r, norm2<I::dim, typename I::real>(r), a, p.fluid.load(j));
         add(u_i, c.to_i);
-        p.u.add(j, c.to_j);
+        u.add(j, c.to_j);
         if constexpr (Probe::counting) probe.evaluated(1);
       });
   if constexpr (Probe::counting) {
@@ -46,7 +47,14 @@ template <class I, class Probe, class FluidRanges, class BoundaryRanges>
     probe.pairs_of_one(n);
   }
   add_boundary(p, i, a, boundary, u_i, probe);
-  p.u.add(i, u_i);
+  u.add(i, u_i);
+}
+
+/// scatter_one_to() the rates themselves.
+template <class I, class Probe, class FluidRanges, class BoundaryRanges>
+[[gnu::always_inline]] inline void scatter_one(const problem<I>& p, std::uint32_t i, const FluidRanges& fluid,
+                                               const BoundaryRanges& boundary, Probe& probe) {
+  scatter_one_to(p.u, p, i, fluid, boundary, probe);
 }
 
 /// Gather: fluid particle i collects its own side from every neighbour; nothing else is written. A pair is seen twice,
