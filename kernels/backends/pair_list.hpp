@@ -75,22 +75,24 @@ struct pair_list {
       const std::uint32_t* const partner = list.partner.data();
       if constexpr (Probe::counting) probe.evaluated(list.partner.size());
       for (std::size_t i = 0; i < p.fluid_count; ++i) {
-        const auto x_i = p.position(i);
         const auto a = p.fluid.load(i);
         auto u_i = zero<rates_of<I>>();
-        for (std::size_t k = row[i].fluid; k < row[i].boundary; ++k) {
-          const std::uint32_t j = partner[k];
-          const vec<I::dim, real> r = x_i - p.position(j);
-          const auto c = p.formula->pair(r, norm2<I::dim, real>(r), a, p.fluid.load(j));
-          add(u_i, c.to_i);
-          p.u.add(j, c.to_j);
-        }
-        if constexpr (has_boundary<I>)
-          for (std::size_t k = row[i].boundary; k < row[i + 1].fluid; ++k) {
-            const std::uint32_t b = partner[k];
-            const vec<I::dim, real> r = x_i - p.position(b);
-            add(u_i, p.formula->boundary(r, norm2<I::dim, real>(r), a, p.boundary_particle(b)));
-          }
+        either_side(
+            p.position(i), [&](const auto& x_i) __attribute__((always_inline)) {
+              for (std::size_t k = row[i].fluid; k < row[i].boundary; ++k) {
+                const std::uint32_t j = partner[k];
+                const vec<I::dim, real> r = x_i - p.position(j);
+                const auto c = p.formula->pair(r, norm2<I::dim, real>(r), a, p.fluid.load(j));
+                add(u_i, c.to_i);
+                p.u.add(j, c.to_j);
+              }
+              if constexpr (has_boundary<I>)
+                for (std::size_t k = row[i].boundary; k < row[i + 1].fluid; ++k) {
+                  const std::uint32_t b = partner[k];
+                  const vec<I::dim, real> r = x_i - p.position(b);
+                  add(u_i, p.formula->boundary(r, norm2<I::dim, real>(r), a, p.boundary_particle(b)));
+                }
+            });
         p.u.add(i, u_i);
       }
     }
