@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "core/isa.hpp"
@@ -95,10 +96,12 @@ void fill_in_defaults(run_request& q, const verify_options& o) {
   if (o.dx.empty()) q.dx = {q.dim == 1 ? 0.0005 : q.dim == 2 ? 0.01 : 0.04};
 }
 
-/// Of the M that nobody asked for, a periodic box has those whose torus closes where it does.
+/// Of the M that nobody asked for, a periodic box has those whose torus closes where it does, for all the backends.
 void leave_out_M_that_do_not_fit(run_request& q, const initial_condition& c) {
   if (!c.periodic) return;
-  setup s = setup_of(c);
+  double skin = 0;
+  for (const std::string& b : q.backends) skin = std::max(skin, registry::instance().find_backend(b).traits.skin);
+  setup s = with_skin(setup_of(c), skin);
   s.grid = "hashed_grid";
   std::erase_if(q.M, [&](int M) {
     s.M = M;

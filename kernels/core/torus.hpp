@@ -13,10 +13,9 @@ namespace pairsum {
 template <int D, class R>
 struct torus {
   bool periodic = false;
-  vec<D, R> edge = zeros(), half = zeros();             ///< m; of a periodic box
-  vec<D, R> inner_low = zeros(), inner_high = zeros();  ///< who lies between has all its neighbours on this side
+  vec<D, R> edge = vec<D, R>::Zero(), half = edge;  ///< m; of a periodic box
+  vec<D, R> inner_low = edge, inner_high = edge;    ///< who lies between has all neighbours on this side of the faces
 
-  static vec<D, R> zeros() { return vec<D, R>::Zero(); }
   torus() = default;
   torus(const box<D, R>& omega, R H) : periodic(omega.periodic) {
     constexpr R u = std::numeric_limits<R>::epsilon();
@@ -40,10 +39,9 @@ struct torus {
     for (int d = 0; d < D; ++d) near = near || !(x[d] >= inner_low[d] && x[d] <= inner_high[d]);
     return near;
   }
-  /// The shortest of the ways that are r but for whole edges, |r| being at most an edge per component.
-  [[gnu::always_inline]] vec<D, R> shortest(vec<D, R> r) const {
+  /// Makes r the shortest of the ways that are r but for whole edges, |r| being at most an edge per component.
+  [[gnu::always_inline]] void shorten(vec<D, R>& r) const {
     for (int d = 0; d < D; ++d) r[d] -= r[d] > half[d] ? edge[d] : r[d] < -half[d] ? -edge[d] : R(0);
-    return r;
   }
 };
 
@@ -60,12 +58,23 @@ struct point {
 
   [[gnu::always_inline]] friend vec<D, R> operator-(const point& a, const point& b) { return a - b.x; }
   [[gnu::always_inline]] friend vec<D, R> operator-(const point& a, const vec<D, R>& b) {
-    const vec<D, R> r = a.x - b;
+    vec<D, R> r = a.x - b;
     if (a.across != nullptr) [[unlikely]]
-      return a.across->shortest(r);
+      a.across->shorten(r);
     return r;
   }
   [[gnu::always_inline]] friend vec<D, R> operator-(const vec<D, R>& a, const point& b) { return -(b - a); }
 };
+
+/// f(x), compiled once for points deep inside and once for those near a face: a loop in f over x - x_j has no branch
+/// for faces then, which compilers need to put it on vector units. For loops over lists; each_in_reach() does so
+/// itself.
+template <int D, class R, class F>
+[[gnu::always_inline]] inline void either_side(const point<D, R>& x, F&& f) {
+  if (x.across == nullptr) [[likely]]
+    f(point<D, R>{x.x, nullptr});
+  else
+    f(x);
+}
 
 }  // namespace pairsum

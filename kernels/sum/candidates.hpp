@@ -45,14 +45,48 @@ template <int D, class R>
 class candidate_filter {
  public:
   /// Calls visit(j) for every j of the ranges with |x_i - x_j|^2 < reach2, in ascending order within a range; returns
-  /// the number. Near a face of a periodic box x_i - x_j may go through it.
-  template <class Ranges, class Visit>
-  [[gnu::always_inline]] static std::size_t each_in_reach(const positions<D, R>& x, const vec<D, R>& x_i, R reach2,
+  /// the number. x_i is a point or its coordinates; near a face of a periodic box x_i - x_j may go through it.
+  template <class Point, class Ranges, class Visit>
+  [[gnu::always_inline]] static std::size_t each_in_reach(const positions<D, R>& x, const Point& x_i, R reach2,
                                                           const Ranges& ranges, Visit&& visit) {
-    constexpr std::uint32_t piece = 256;
+    // What visit does with a point that has this branch behind it needs no other for the faces.
+    if (const auto* const across = across_of(x, x_i); across != nullptr) [[unlikely]]
+      return each_through_faces(*across, x, x_i, reach2, ranges, visit);
+    return each_inside(x, x_i, reach2, ranges, visit);
+  }
+
+  /// The same for candidates that were listed.
+  template <class Point, class Visit>
+  [[gnu::always_inline]] static std::size_t each_in_reach(const positions<D, R>& x, const Point& x_i, R reach2,
+                                                          const index_list& list, Visit&& visit) {
+    if (const auto* const across = across_of(x, x_i); across != nullptr) [[unlikely]]
+      return each_listed(x, point<D, R>{x_i, across}, reach2, list, visit);
+    return each_listed(x, point<D, R>{x_i, nullptr}, reach2, list, visit);
+  }
+
+  static std::uint64_t size(const index_list& list) { return static_cast<std::uint64_t>(list.last - list.first); }
+  template <class Ranges>
+  static std::uint64_t size(const Ranges& ranges) {
+    std::uint64_t n = 0;
+    for (const index_range& range : ranges) n += range.end - range.begin;
+    return n;
+  }
+
+ private:
+  static constexpr std::uint32_t piece = 256;
+
+  [[gnu::always_inline]] static const torus<D, R>* across_of(const positions<D, R>&, const point<D, R>& x_i) {
+    return x_i.across;
+  }
+  [[gnu::always_inline]] static const torus<D, R>* across_of(const positions<D, R>& x, const vec<D, R>& x_i) {
+    return x.omega.seen_from(x_i);
+  }
+
+  template <class Ranges, class Visit>
+  [[gnu::always_inline]] static std::size_t each_inside(const positions<D, R>& x, const vec<D, R>& x_i, R reach2,
+                                                        const Ranges& ranges, Visit&& visit) {
     std::uint32_t hits[2 * piece];
     std::size_t n = 0, total = 0;
-    const torus<D, R>* const across = x.omega.seen_from(x_i);
     const auto flush = [&]() __attribute__((always_inline)) {
       for (std::size_t k = 0; k < n; ++k) visit(hits[k]);
       total += n;
@@ -61,17 +95,10 @@ class candidate_filter {
     for (const index_range& range : ranges) {
       for (std::uint32_t begin = range.begin; begin < range.end; begin += piece) {
         const std::uint32_t end = range.end - begin > piece ? begin + piece : range.end;
-        if (across == nullptr) [[likely]] {
 #pragma GCC unroll 4
-          for (std::uint32_t j = begin; j < end; ++j) {
-            hits[n] = j;
-            n += norm2<D, R>(x_i - x[j]) < reach2;
-          }
-        } else {
-          for (std::uint32_t j = begin; j < end; ++j) {
-            hits[n] = j;
-            n += norm2<D, R>(across->shortest(x_i - x[j])) < reach2;
-          }
+        for (std::uint32_t j = begin; j < end; ++j) {
+          hits[n] = j;
+          n += norm2<D, R>(x_i - x[j]) < reach2;
         }
         if (n > piece) [[unlikely]]
           flush();
@@ -81,19 +108,26 @@ class candidate_filter {
     return total;
   }
 
-  template <class Visit>
-  [[gnu::always_inline]] static std::size_t each_in_reach(const positions<D, R>& x, const vec<D, R>& x_i, R reach2,
-                                                          const index_list& list, Visit&& visit) {
-    constexpr std::ptrdiff_t piece = 256;
-    std::uint32_t hits[piece + 1];
+  /// The same with ways through the faces; visit is compiled once here.
+  template <class Ranges, class Visit>
+  [[gnu::always_inline]] static std::size_t each_through_faces(const torus<D, R>& omega, const positions<D, R>& x,
+                                                               const vec<D, R>& x_i, R reach2, const Ranges& ranges,
+                                                               Visit&& visit) {
+    std::uint32_t hits[2 * piece];
     std::size_t total = 0;
-    const point<D, R> from{x_i, x.omega.seen_from(x_i)};
-    for (const std::uint32_t* begin = list.first; begin != list.last;) {
-      const std::uint32_t* const end = list.last - begin > piece ? begin + piece : list.last;
+    auto range = ranges.begin();
+    std::uint32_t j = range == ranges.end() ? 0 : range->begin;
+    while (range != ranges.end()) {
       std::size_t n = 0;
-      for (; begin != end; ++begin) {
-        hits[n] = *begin;
-        n += norm2<D, R>(from - x[*begin]) < reach2;
+      while (range != ranges.end() && n <= piece) {
+        const std::uint32_t end = range->end - j > piece ? j + piece : range->end;
+        for (; j < end; ++j) {
+          hits[n] = j;
+          vec<D, R> r = x_i - x[j];
+          omega.shorten(r);
+          n += norm2<D, R>(r) < reach2;
+        }
+        if (j >= range->end && ++range != ranges.end()) j = range->begin;
       }
       for (std::size_t k = 0; k < n; ++k) visit(hits[k]);
       total += n;
@@ -101,12 +135,22 @@ class candidate_filter {
     return total;
   }
 
-  static std::uint64_t size(const index_list& list) { return static_cast<std::uint64_t>(list.last - list.first); }
-  template <class Ranges>
-  static std::uint64_t size(const Ranges& ranges) {
-    std::uint64_t n = 0;
-    for (const index_range& range : ranges) n += range.end - range.begin;
-    return n;
+  template <class Visit>
+  [[gnu::always_inline]] static std::size_t each_listed(const positions<D, R>& x, const point<D, R>& x_i, R reach2,
+                                                        const index_list& list, Visit&& visit) {
+    std::uint32_t hits[piece + 1];
+    std::size_t total = 0;
+    for (const std::uint32_t* begin = list.first; begin != list.last;) {
+      const std::uint32_t* const end = list.last - begin > std::ptrdiff_t{piece} ? begin + piece : list.last;
+      std::size_t n = 0;
+      for (; begin != end; ++begin) {
+        hits[n] = *begin;
+        n += norm2<D, R>(x_i - x[*begin]) < reach2;
+      }
+      for (std::size_t k = 0; k < n; ++k) visit(hits[k]);
+      total += n;
+    }
+    return total;
   }
 };
 

@@ -49,6 +49,11 @@ bool fits(const setup& s) {
 
 bool grid_fits(const setup& s) { return s.dim == 1 ? fits<1>(s) : s.dim == 2 ? fits<2>(s) : fits<3>(s); }
 
+setup with_skin(setup s, double skin) {
+  s.constants.H *= 1 + skin;
+  return s;
+}
+
 template <class R>
 box<1, R> make_box_of_axis(const setup& s, std::size_t d) {
   box<1, R> b;

@@ -24,6 +24,9 @@ std::unique_ptr<grid<D, R>> make_grid(const setup& s);
 /// Does the grid that `s` names go round the periodic box of `s`, in every precision?
 bool grid_fits(const setup& s);
 
+/// The setup, for cells that are wider by a skin, in units of H.
+setup with_skin(setup s, double skin);
+
 /// Calls f with a team of one thread of the given kind.
 void with_one_thread(runtime kind, const std::function<void(const team&)>& f);
 

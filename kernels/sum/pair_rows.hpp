@@ -90,20 +90,22 @@ template <class I, class Probe>
 PAIRSUM_SAME_CODE void sum_row(const problem<I>& p, const pair_rows& rows, std::size_t i, Probe& probe) {
   using real = typename I::real;
   const pair_rows::row& row = rows[i];
-  const auto x_i = p.position(i);
   const auto a = p.fluid.load(i);
   auto u_i = zero<rates_of<I>>();
-  for (const std::uint32_t* k = row.fluid; k != row.boundary; ++k) {
-    const vec<I::dim, real> r = x_i - p.position(*k);
-    const auto c = p.formula->pair(r, norm2<I::dim, real>(r), a, p.fluid.load(*k));
-    add(u_i, c.to_i);
-    p.u.add(*k, c.to_j);
-  }
-  if constexpr (has_boundary<I>)
-    for (const std::uint32_t* k = row.boundary; k != row.end; ++k) {
-      const vec<I::dim, real> r = x_i - p.position(*k);
-      add(u_i, p.formula->boundary(r, norm2<I::dim, real>(r), a, p.boundary_particle(*k)));
-    }
+  either_side(
+      p.position(i), [&](const auto& x_i) __attribute__((always_inline)) {
+        for (const std::uint32_t* k = row.fluid; k != row.boundary; ++k) {
+          const vec<I::dim, real> r = x_i - p.position(*k);
+          const auto c = p.formula->pair(r, norm2<I::dim, real>(r), a, p.fluid.load(*k));
+          add(u_i, c.to_i);
+          p.u.add(*k, c.to_j);
+        }
+        if constexpr (has_boundary<I>)
+          for (const std::uint32_t* k = row.boundary; k != row.end; ++k) {
+            const vec<I::dim, real> r = x_i - p.position(*k);
+            add(u_i, p.formula->boundary(r, norm2<I::dim, real>(r), a, p.boundary_particle(*k)));
+          }
+      });
   p.u.add(i, u_i);
   if constexpr (Probe::counting) probe.evaluated(row.size());
 }

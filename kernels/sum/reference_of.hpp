@@ -212,7 +212,7 @@ class reference_of final : public reference {
         candidates(i, [&](std::uint32_t j) {
           if (j == i || w.kind[j] == particle_kind::lost) return;
           vec<D, R> r = w.x[i] - w.x[j];
-          if (torus_.periodic) r = torus_.shortest(r);
+          if (torus_.periodic) torus_.shorten(r);
           const R r2 = norm2<D, R>(r);
           if (!(r2 < H_ * H_)) return;
           if (w.kind[j] == particle_kind::boundary) {

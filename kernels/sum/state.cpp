@@ -1,17 +1,12 @@
 #include "sum/state.hpp"
 
+#include <cmath>
+
 #include "grid/cell_scale.hpp"
 #include "sum/check.hpp"
 #include "sum/grids.hpp"
 
 namespace pairsum {
-
-namespace {
-setup with_skin(setup s, double skin) {
-  s.constants.H *= 1 + skin;
-  return s;
-}
-}  // namespace
 
 template <int D, class R>
 state<D, R>::state(const setup& s, double skin)
@@ -70,7 +65,14 @@ std::optional<unfolded_tests> state<D, R>::count_unfolded_tests() const {
 
 template <int D, class R>
 particle_table state<D, R>::snapshot() const {
-  return to_table(particles_, rows_);
+  particle_table table = to_table(particles_, rows_);
+  if (setup_.periodic) {  // while a list serves, nobody is brought back
+    const box<D, double> omega = make_box<D, double>(setup_);
+    for (int d = 0; d < D; ++d)
+      for (double& x : table.x[static_cast<std::size_t>(d)])
+        if (std::isfinite(x)) x = omega.wrapped(d, x);
+  }
+  return table;
 }
 
 PAIRSUM_STATES()

@@ -57,7 +57,7 @@ HWY_INLINE Mask decide_near_ties(const tile_problem<I>& t, Mask in, V r2, typena
   return decide_lanes(t, in, close, reach2, i, other, d);
 }
 
-/// Components of ways, an edge shorter where they go through a face of a periodic box: as torus::shortest() rounds.
+/// Components of ways, an edge shorter where they go through a face of a periodic box: as torus::shorten() rounds.
 template <class V, class R>
 HWY_INLINE V shortest_lanes(V r, R edge) {
   const hn::DFromV<V> d;

@@ -25,10 +25,10 @@ inline bool goes_round(const setup& s) {
   return error_of([&] { (void)registry::instance().make_summation(s); }).empty();
 }
 
-/// Every grid, the hashed one with every M from 2 to 5 that goes round the box.
-inline std::vector<grid_choice> grids_round(const setup& s) {
+/// Every grid, the hashed one with every of these M that goes round the box for the setup's backend.
+inline std::vector<grid_choice> grids_round(const setup& s, const std::vector<int>& all_M = {2, 3, 4, 5}) {
   std::vector<grid_choice> all;
-  for (const grid_choice& g : every_grid({2, 3, 4, 5}))
+  for (const grid_choice& g : every_grid(all_M))
     if (goes_round(with(s, s.backend, g, s.interaction))) all.push_back(g);
   return all;
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "indexed_scene.hpp"
+#include "periodic_box.hpp"
 
 // The work that backends report, recomputed from the cells: who holds fluid, and who is whose
 // neighbour on the torus.
@@ -28,15 +29,14 @@ work by_hand(const scene& s, const grid_choice& grid, int parts, double skin) {
   }
   work n;
   n.cells = cell.size();
-  const int mask = indexed.mask < 0 ? -1 : (indexed.mask + 1) * parts - 1;
   const int edge = 2 * parts + 1, neighbours = edge * edge * edge;
   for (const auto& [at, own] : cell) {
     n.fluid_cells += own.fluid > 0;
     n.fluid_tests += own.fluid * (own.fluid - (own.fluid > 0)) / 2;
     n.boundary_tests += own.fluid * own.boundary;
     for (int code = 0; code < neighbours; ++code) {
-      const std::array<int, 3> to{(at[0] + code % edge - parts) & mask, (at[1] + code / edge % edge - parts) & mask,
-                                  (at[2] + code / edge / edge - parts) & mask};
+      const auto to = indexed.turned(
+          {at[0] + code % edge - parts, at[1] + code / edge % edge - parts, at[2] + code / edge / edge - parts}, parts);
       const auto other = cell.find(to);
       if (other == cell.end() || other->first <= at) continue;  // each pair of cells once
       n.cell_pairs += own.fluid > 0 || other->second.fluid > 0;
@@ -56,7 +56,11 @@ std::uint64_t listed_by_hand(const scene& s, double skin) {
     for (std::size_t j = i + 1; j < p.size(); ++j) {
       if (p.kind[i] == particle_kind::boundary && p.kind[j] == particle_kind::boundary) continue;
       double square = 0;
-      for (const auto& x : p.x) square += (x[i] - x[j]) * (x[i] - x[j]);
+      for (std::size_t d = 0; d < 3; ++d) {
+        const double edge = s.world.omega_high[d] - s.world.omega_low[d];
+        const double r = p.x[d][i] - p.x[d][j], turns = s.world.periodic ? std::round(r / edge) : 0;
+        square += (r - turns * edge) * (r - turns * edge);
+      }
       n += std::sqrt(square) < H * (1 + skin);
     }
   return n;
@@ -66,15 +70,15 @@ class work_counts_test : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(backend, work_counts_test, testing::ValuesIn(backend_names()),
                          [](const auto& i) { return i.param; });
 
-TEST_P(work_counts_test, are_those_of_the_cells) {
-  const scene s = make_scene("dam_break", 0.05, "perturbed");
+/// Expects it on these grids; one with an M of `unfolded` or none folds nothing.
+void expect_work_of_cells(const std::string& backend, const scene& s, const std::vector<int>& all_M, int unfolded_M) {
   const auto oracle = registry::instance().make_reference(s.world)->cell_search(s.particles, some_threads());
-  const auto& traits = registry::instance().find_backend(GetParam()).traits;
+  const auto& traits = registry::instance().find_backend(backend).traits;
   const bool as_grid = traits.cells_per_reach == 1 && traits.skin == 0;
-  for (const grid_choice& grid : every_grid({2, 3, 4, 6})) {
+  for (const grid_choice& grid : grids_round(with(s.world, backend, 2), all_M)) {
     const work expected = by_hand(s, grid, 1, traits.skin);
     const work visited = by_hand(s, grid, traits.cells_per_reach, traits.skin);
-    const auto sum = evaluated(with(s.world, GetParam(), grid), s.particles, 2);
+    const auto sum = evaluated(with(s.world, backend, grid), s.particles, 2);
     const auto fingerprint = sum->fingerprint();
     const work_counts n = sum->count_work();
     SCOPED_TRACE(testing::PrintToString(grid));
@@ -95,12 +99,23 @@ TEST_P(work_counts_test, are_those_of_the_cells) {
       EXPECT_EQ(n.sumF1 + n.sumF2, 0u);
       EXPECT_EQ(n.pairs_tested, 2 * expected.fluid_tests + expected.boundary_tests);
     }
-    if (as_grid && (grid.M == 0 || grid.M == 6)) {  // which folds nothing either
+    if (as_grid && (grid.M == 0 || grid.M == unfolded_M)) {
       const auto unfolded = sum->count_unfolded_tests().value();
       EXPECT_EQ(n.pairs_tested, sum->traits().symmetric ? unfolded.symmetric : unfolded.gather);
     }
     EXPECT_EQ(sum->fingerprint(), fingerprint) << "counting must not disturb the rates";
   }
+}
+
+TEST_P(work_counts_test, are_those_of_the_cells) {
+  expect_work_of_cells(GetParam(), make_scene("dam_break", 0.05, "perturbed"), {2, 3, 4, 6}, 6);
+}
+TEST_P(work_counts_test, are_those_of_the_cells_that_go_round_a_periodic_box) {
+  scene s = make_scene("periodic_lattice", 0.0625, "perturbed");  // 8 H, of cells of H
+  for (std::size_t i = 0; i < s.particles.size(); i += 7) s.particles.kind[i] = particle_kind::boundary;
+  expect_work_of_cells(GetParam(), s, {2, 3}, 3);
+  for (double& edge : s.world.omega_high) edge = 1.3;  // 10.4 H
+  expect_work_of_cells(GetParam(), s, {2, 3}, 0);
 }
 
 }  // namespace
