@@ -67,6 +67,7 @@ std::string fault_of_field(const study_plan& plan) {
     reaches[r.case_name].insert(r.H);
   }
   if (dims != std::set<int>{2, 3}) return "2D and 3D are not compared";
+  if (!reaches.contains("periodic_lattice")) return "no periodic world";
   if (!reaches.contains("dam_break") || reaches["random_clustered"].size() < 2) return "no sparse world";
   return "";
 }
@@ -85,6 +86,7 @@ TEST(study, field_takes_every_backend_into_every_world) {
   faulty("/defaults/state", "rest");
   faulty("/parts/3/dim", 3);
   faulty("/parts/2/H", 0.0215);
+  faulty("/parts/4/case", "lattice");
 }
 
 TEST(study, a_serial_backend_of_the_field_is_measured_once_per_world) {
