@@ -15,6 +15,15 @@ set(PAIRSUM_ALL_BACKENDS
   tiles_omp
   tiles_tbb
   naive_tiles_omp
+  atomic_add
+  thread_private
+  touched_blocks
+  per_pass_buffers
+  colour18
+  colour4
+  pair_list_omp
+  verlet_list
+  half_cells
 )
 set(PAIRSUM_ALL_SMOOTHED_INTERACTIONS  # those that take a smoothing kernel
   ferrari09
@@ -36,6 +45,7 @@ set(PAIRSUM_ALL_SMOOTHINGS
 set(PAIRSUM_ALL_CASES
   dam_break
   lattice
+  periodic_lattice
   random_uniform
   random_clustered
 )

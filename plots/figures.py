@@ -27,5 +27,15 @@ FIGURES = {
     "self_test": ("Self-test", "Does the harness find known differences, and none where there is none? Dot: "
                   "measured ratio; line: its interval; tall mark: expected."),
 }
+#: The figures of the section on strategies.
+STRATEGIES = {
+    "strategy_ladder": ("Ladder of strategies", "How many times as fast as the base each backend gets the rates: prepare, "
+                        "zero, sum and reduce together, mean over the steps. Black lines: intervals. Colours: how threads "
+                        "are kept apart."),
+    "strategy_threads": ("Strategies over threads", "Times as fast as the base on one thread; a steep line gains from "
+                         "threads. Colours: how threads are kept apart."),
+    "strategy_worlds": ("From world to world", "Each backend against the base in every world: markers far to the left of "
+                        "its others are where it breaks down."),
+}
 SERIES = ("ladder", "speedup", "efficiency", "algorithm_speedup", "m_comparison", "phase_split", "barrier_wait",
           "roofline", "granularity")

@@ -16,10 +16,12 @@ _HIDDEN = ("schema", "kind", "study", "utc", "environment")
 def content(data, markup):
     """Return the template's variables for checked summaries, one per machine; `markup` marks the SVG as safe."""
     machines = [_machine(summary) for summary in data]
-    drawn, not_drawn = _figures(data)
-    for drawing in (some for figure in drawn for column in figure["columns"] for some in column["drawings"]):
-        drawing["svg"] = markup(drawing["svg"])
-    return {"machines": machines, "figures": drawn, "not_drawn": not_drawn}
+    drawn, not_drawn = _figures(data, figures.FIGURES, "f")
+    strategies = _figures(data, figures.STRATEGIES, "s")[0] if any(row["strategies"] for row in data) else []
+    for figure in (*drawn, *strategies):
+        for drawing in (some for column in figure["columns"] for some in column["drawings"]):
+            drawing["svg"] = markup(drawing["svg"])
+    return {"machines": machines, "figures": drawn, "not_drawn": not_drawn, "strategies": strategies}
 
 
 def _machine(summary):
@@ -72,11 +74,11 @@ def _facts(row):
     return facts
 
 
-def _figures(data):
+def _figures(data, wanted, prefix):
     """Return the figures that can be drawn of some summary, and what is missing for the others."""
     drawn, not_drawn = [], []
-    for at, (name, (heading, caption)) in enumerate(figures.FIGURES.items()):
-        columns = [_column(summary, name, f"f{at}-{number}-", caption, len(data))
+    for at, (name, (heading, caption)) in enumerate(wanted.items()):
+        columns = [_column(summary, name, f"{prefix}{at}-{number}-", f"{heading}%s. {caption}", len(data))
                    for number, summary in enumerate(data)]
         if any(column["drawings"] for column in columns):
             drawn.append({"name": name, "heading": heading, "caption": caption, "columns": columns})
@@ -85,7 +87,8 @@ def _figures(data):
     return drawn, not_drawn
 
 
-def _column(summary, name, prefix, caption, machines):
+def _column(summary, name, prefix, label, machines):
+    """`label` is for readers who cannot see it; %s in it stands for what tells a series apart."""
     module = importlib.import_module(name)
     parts = worlds(summary) if name in figures.SERIES else [("", summary)]
     drawings, missing = [], "no points"
@@ -95,11 +98,10 @@ def _column(summary, name, prefix, caption, machines):
         except summaries.NoData as problem:
             missing = str(problem)
             continue
-        label = f"{figures.FIGURES[name][0]}{', ' if text else ''}{text}. {caption}"
         more = [part for part in text.split(", ") if part not in figure.subtitle]
         common, mark, rest = figure.subtitle.partition(";")
         drawings.append({"text": panels.joined(common, *more) + mark + rest,
-                         "svg": svg.inline(figure, f"{prefix}{number}-", label)})
+                         "svg": svg.inline(figure, f"{prefix}{number}-", label.replace("%s", f", {text}" if text else "", 1))})
     return {"drawings": drawings, "missing": missing}
 
 

@@ -5,7 +5,7 @@ import wording
 NUMBER, TEXT, LONG = "number", "", "long"
 
 
-def _key(name, scale=1.0, digits=4):
+def key(name, scale=1.0, digits=4):
     def cell(row):
         value = row.get(name)
         if value is None or isinstance(value, (str, bool)):
@@ -22,60 +22,60 @@ def _plain_dx(row):
     return "" if row.get("dx") is None else f"{row['dx']:g}"
 
 
-_WORLD = [("case", _key("case"), TEXT), ("state", _key("state"), TEXT), ("dx [m]", _plain_dx, NUMBER),
-          ("build", _key("world"), TEXT)]
-_VARIED = [("grid", _key("grid"), TEXT), ("isa", _key("isa"), TEXT), ("block", _key("block"), TEXT)]
-_POINT = [("backend", _key("backend"), TEXT), *_VARIED, ("M", _key("M"), NUMBER), ("threads", _key("threads"), NUMBER)]
-_GRAIN = [("granularity", _key("granularity"), TEXT)]
-_TIME = [("time [ms]", _key("time_s", 1e3), NUMBER)]
-_BASE = [("base [ms]", _key("base_time_s", 1e3), NUMBER)]
-_RATIO = [("ratio", _key("ratio", digits=3), NUMBER), ("interval", wording.interval, NUMBER)]
-_SPEEDUP = [("speedup", _key("speedup", digits=3), NUMBER), ("interval", wording.interval, NUMBER)]
-_VERDICT = [("verdict", _key("verdict"), TEXT)]
+_WORLD = [("case", key("case"), TEXT), ("state", key("state"), TEXT), ("dx [m]", _plain_dx, NUMBER),
+          ("build", key("build"), TEXT)]
+_VARIED = [("grid", key("grid"), TEXT), ("isa", key("isa"), TEXT), ("block", key("block"), TEXT)]
+_POINT = [("backend", key("backend"), TEXT), *_VARIED, ("M", key("M"), NUMBER), ("threads", key("threads"), NUMBER)]
+_GRAIN = [("granularity", key("granularity"), TEXT)]
+TIME = [("time [ms]", key("time_s", 1e3), NUMBER)]
+_BASE = [("base [ms]", key("base_time_s", 1e3), NUMBER)]
+RATIO = [("ratio", key("ratio", digits=3), NUMBER), ("interval", wording.interval, NUMBER)]
+_SPEEDUP = [("speedup", key("speedup", digits=3), NUMBER), ("interval", wording.interval, NUMBER)]
+VERDICT = [("verdict", key("verdict"), TEXT)]
 
 #: name in the summary, heading, caption, columns; a column without any value is left out.
 TABLES = (
     ("points", "Points", "Medians over rounds. The interval is of the sum.",
-     _WORLD + _POINT + _GRAIN + [("sum [ms]", _key("time_s", 1e3), NUMBER), ("interval [ms]", _in_ms, NUMBER),
-      ("step [ms]", _key("total_s", 1e3), NUMBER), ("ns per pair", _key("ns_per_pair"), NUMBER),
-      ("useful pairs [%]", _key("useful_pair_ratio", 100, 3), NUMBER),
-      ("filled lanes [%]", _key("occupancy", 100, 3), NUMBER), ("blocks made", _key("block_made"), TEXT),
-      ("wait [%]", _key("wait_share", 100, 3), NUMBER), ("of the bound [%]", _key("share_of_bound", 100, 3), NUMBER),
-      ("limited by", _key("limited_by"), TEXT), ("between rounds [%]", _key("between", 100, 2), NUMBER),
-      ("rounds", _key("rounds"), NUMBER)]),
+     _WORLD + _POINT + _GRAIN + [("sum [ms]", key("time_s", 1e3), NUMBER), ("interval [ms]", _in_ms, NUMBER),
+      ("step [ms]", key("total_s", 1e3), NUMBER), ("ns per pair", key("ns_per_pair"), NUMBER),
+      ("useful pairs [%]", key("useful_pair_ratio", 100, 3), NUMBER),
+      ("filled lanes [%]", key("occupancy", 100, 3), NUMBER), ("blocks made", key("block_made"), TEXT),
+      ("wait [%]", key("wait_share", 100, 3), NUMBER), ("of the bound [%]", key("share_of_bound", 100, 3), NUMBER),
+      ("limited by", key("limited_by"), TEXT), ("between rounds [%]", key("between", 100, 2), NUMBER),
+      ("rounds", key("rounds"), NUMBER)]),
     ("speedup", "Speedup", "Over the same backend with 1 thread.",
-     _WORLD + _POINT + _GRAIN + _TIME + _BASE + _SPEEDUP + [("efficiency", _key("efficiency", digits=3), NUMBER)]),
+     _WORLD + _POINT + _GRAIN + TIME + _BASE + _SPEEDUP + [("efficiency", key("efficiency", digits=3), NUMBER)]),
     ("algorithm_speedup", "Algorithm speedup", "Over the base backend with the same runtime and threads.",
-     _WORLD + _POINT + _GRAIN + _TIME + [("base", _key("base_backend"), TEXT), ("base M", _key("base_M"), NUMBER)]
-     + _BASE + _SPEEDUP + _VERDICT),
+     _WORLD + _POINT + _GRAIN + TIME + [("base", key("base_backend"), TEXT), ("base M", key("base_M"), NUMBER)]
+     + _BASE + _SPEEDUP + VERDICT),
     ("runtime_comparison", "OpenMP against oneTBB", "Ratio: time with OpenMP / time with oneTBB.",
-     _WORLD + _VARIED + [("algorithm", _key("algorithm"), TEXT), ("M", _key("M"), NUMBER), ("threads", _key("threads"), NUMBER),
-      ("OpenMP [ms]", _key("omp_time_s", 1e3), NUMBER), ("oneTBB [ms]", _key("tbb_time_s", 1e3), NUMBER)]
-     + _RATIO + _VERDICT),
+     _WORLD + _VARIED + [("algorithm", key("algorithm"), TEXT), ("M", key("M"), NUMBER), ("threads", key("threads"), NUMBER),
+      ("OpenMP [ms]", key("omp_time_s", 1e3), NUMBER), ("oneTBB [ms]", key("tbb_time_s", 1e3), NUMBER)]
+     + RATIO + VERDICT),
     ("compiler_comparison", "Compilers", "Ratio: time with the base compiler / time.",
-     _WORLD + _POINT + _GRAIN + [("compiler", _key("compiler"), TEXT)] + _TIME
-     + [("base compiler", _key("base_compiler"), TEXT)] + _BASE + _RATIO + _VERDICT),
+     _WORLD + _POINT + _GRAIN + [("compiler", key("compiler"), TEXT)] + TIME
+     + [("base compiler", key("base_compiler"), TEXT)] + _BASE + RATIO + VERDICT),
     ("m_comparison", "Choice of M", "The interval is of the summation time.",
-     _WORLD + _POINT + [("sum [ms]", _key("time_s", 1e3), NUMBER), ("interval [ms]", _in_ms, NUMBER),
-      ("step [ms]", _key("total_s", 1e3), NUMBER), ("non-empty cells", _key("cells_nonempty"), NUMBER),
-      ("pairs tested", _key("pairs_tested"), NUMBER), ("collisions [%]", _key("collision_share", 100, 3), NUMBER),
-      ("useful pairs [%]", _key("useful_pair_ratio", 100, 3), NUMBER)]),
+     _WORLD + _POINT + [("sum [ms]", key("time_s", 1e3), NUMBER), ("interval [ms]", _in_ms, NUMBER),
+      ("step [ms]", key("total_s", 1e3), NUMBER), ("non-empty cells", key("cells_nonempty"), NUMBER),
+      ("pairs tested", key("pairs_tested"), NUMBER), ("collisions [%]", key("collision_share", 100, 3), NUMBER),
+      ("useful pairs [%]", key("useful_pair_ratio", 100, 3), NUMBER)]),
     ("peaks", "Measured peaks", "Memory bandwidth and flops that the machine reached.",
-     [("environment", _key("world"), TEXT), ("threads", _key("threads"), NUMBER),
-      ("precision", _key("precision"), TEXT),
-      ("GB/s", _key("bandwidth_bytes_per_s", 1e-9), NUMBER), ("Gflop/s", _key("flops_per_s", 1e-9), NUMBER)]),
+     [("environment", key("build"), TEXT), ("threads", key("threads"), NUMBER),
+      ("precision", key("precision"), TEXT),
+      ("GB/s", key("bandwidth_bytes_per_s", 1e-9), NUMBER), ("Gflop/s", key("flops_per_s", 1e-9), NUMBER)]),
     ("self_test", "Self-test", "Ratio: time / time of the base.",
-     [("check", _key("what"), TEXT)] + _POINT + [("expected", _key("expected", digits=3), NUMBER)] + _RATIO
-     + [("holds", _key("holds"), TEXT), ("in words", _key("text"), LONG)]),
+     [("check", key("what"), TEXT)] + _POINT + [("expected", key("expected", digits=3), NUMBER)] + RATIO
+     + [("holds", key("holds"), TEXT), ("in words", key("text"), LONG)]),
     ("failed", "Failed points", "Points without a verified result; their times do not count.",
-     _WORLD + _POINT + [("error", _key("error"), LONG)]),
+     _WORLD + _POINT + [("error", key("error"), LONG)]),
 )
 
 
-def of(summaries):
+def of(summaries, tables=TABLES):
     """Return the tables that at least one of the summaries fills, one column per summary."""
     found = []
-    for name, heading, caption, columns in TABLES:
+    for name, heading, caption, columns in tables:
         contents = [_content(summary, name, columns) for summary in summaries]
         if any(content["rows"] for content in contents):
             found.append({"name": name, "heading": heading, "caption": caption, "columns": contents})
@@ -106,4 +106,4 @@ def _flat(summary, name, row):
     identity, series = row.get("environment"), summary.get("series") or []
     if isinstance(row.get("series"), int) and row["series"] < len(series):
         identity = series[row["series"]].get("environment")
-    return {**row, "world": environments.name(summary, identity) or ""}
+    return {**row, "build": environments.name(summary, identity) or ""}

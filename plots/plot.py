@@ -7,7 +7,7 @@ import sys
 import figures
 import summary as summaries
 
-FIGURES = tuple(figures.FIGURES)
+FIGURES = (*figures.FIGURES, *figures.STRATEGIES)
 FORMATS = ("svg", "png")
 
 _HELP = """\
@@ -25,6 +25,9 @@ Draw the figures of a summary that `pairsum report` made. Each figure is written
   granularity        summation time against the chunk, per schedule
   compilers          the same backend built by several compilers
   self_test          what the harness measured of known differences
+  strategy_ladder    every way to keep threads apart against the gather
+  strategy_threads   the same over threads
+  strategy_worlds    the same from world to world
 """
 _MORE = """\
 Nothing is computed here: what is drawn stands in the summary. A figure without data is skipped

@@ -50,7 +50,7 @@ def page(data):
     try:
         jinja2 = importlib.import_module("jinja2")
         importlib.import_module("style").apply()
-        content, tables = importlib.import_module("page"), importlib.import_module("page_tables")
+        content, tables, strategy_tables = map(importlib.import_module, ("page", "page_tables", "strategy_tables"))
     except ImportError as problem:
         raise summaries.SummaryError(
             f"needs matplotlib, numpy and jinja2 for {sys.executable}: {problem} (Debian: "
@@ -61,7 +61,8 @@ def page(data):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True,
                                      undefined=jinja2.StrictUndefined)
     return environment.get_template("report.html.j2").render(
-        **content.content(data, markup), tables=tables.of(data), script=markup(script), script_hash=f"sha256-{digest}",
+        **content.content(data, markup), tables=tables.of(data),
+        strategy_tables=tables.of(data, strategy_tables.TABLES), script=markup(script), script_hash=f"sha256-{digest}",
         style=markup((_HERE / "report.css").read_text(encoding="utf-8")))
 
 

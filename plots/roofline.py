@@ -30,8 +30,9 @@ def draw(summary):
               in zip(groups, own, places) for column, place in zip(columns, group)}
     everything = [column for _, columns in groups for column in columns]
     names = [_name(row) for _, rows, _ in everything for row in choice.best_m(rows)]
+    most = max(len(choice.best_m(rows)) for _, rows, _ in everything)
     page = layout.Sheet(summary, "Roofline of the summation: achieved flops against the measured "
-                        "limits", common, titles, 2.9, 2.9, (0.72, labels.room(names)))
+                        "limits", common, titles, 2.9, max(2.9, most * labels.STEP + 0.1), (0.72, labels.room(names)))
     limits = _limits(everything)
     for (_, columns), group in zip(groups, places):
         for (_, rows, peaks), place in zip(columns, group):

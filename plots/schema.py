@@ -8,6 +8,7 @@ import math
 SCHEMA = "pairsum.summary/2"
 
 TEXT, NUMBER, OPTIONAL = "text", "a number", "a number or null"
+WORD = "text or null"
 COUNT, POSITIVE = "a whole number from 1", "a positive number or null"
 FLAG = "true or false"
 _PLACE = {"case": TEXT, "state": TEXT, "dx": NUMBER}
@@ -34,6 +35,18 @@ TABLES = {
     "peaks": {"environment": TEXT, "threads": COUNT, "precision": TEXT,
               "bandwidth_bytes_per_s": POSITIVE, "flops_per_s": POSITIVE},
     "questions": {"question": TEXT, "answer": TEXT},
+}
+#: Tables that summaries of before there were strategies lack.
+_STRATEGY = {**_PLACE, "series": OPTIONAL, "world": TEXT, "backend": TEXT, "M": OPTIONAL, "threads": COUNT,
+             "time_s": NUMBER, "base_backend": TEXT, "base_threads": COUNT, "base_time_s": NUMBER, **_RATIO}
+LATER = {
+    "strategies": {"backend": TEXT, "conflicts": WORD, "runtime": WORD, "aliases": WORD, "breaks_down": WORD,
+                   "description": WORD},
+    "strategy_ladder": {**_STRATEGY, "ratio": NUMBER, "at": TEXT, "rank": COUNT, "of": COUNT, "verdict": TEXT,
+                        "wait_share": OPTIONAL, "extra_bytes": OPTIONAL, "extra_bytes_per_particle": OPTIONAL},
+    "strategy_threads": {**_STRATEGY, "ratio": NUMBER},
+    "strategy_shifts": {"world": TEXT, "base_world": TEXT, "what": TEXT, "backend": TEXT, "threads": COUNT, **_RATIO,
+                        "rank": COUNT, "base_rank": COUNT, "verdict": TEXT},
 }
 LISTS = ("environments", "points", "caveats", *TABLES)
 POINT = {**_PLACE, "n_fluid": NUMBER, "n_boundary": NUMBER, "precision": TEXT, "granularity": TEXT,
@@ -67,6 +80,8 @@ def fault(row, fields):
 
 
 def _is(value, kind):
+    if kind == WORD:
+        return value is None or isinstance(value, str)
     if kind in (TEXT, FLAG):
         return isinstance(value, str if kind is TEXT else bool)
     if value is None:

@@ -32,8 +32,9 @@ def draw(summary):
     titles = {place: panels.joined(text, column[0]) for (_, columns), text, group
               in zip(groups, own, places) for column, place in zip(columns, group)}
     names = [backend for _, columns in groups for _, lines, *_ in columns for backend, _ in lines]
+    most = max(len(lines) for _, columns in groups for _, lines, *_ in columns)
     page = layout.Sheet(summary, "Summation against the number of particles, each at its best M",
-                        common, titles, 2.9, 2.4, (0.78, labels.room(names)))
+                        common, titles, 2.9, max(2.4, most * labels.STEP + 0.1), (0.78, labels.room(names)))
     for (_, columns), group in zip(groups, places):
         for (_, lines, value, label), place in zip(columns, group):
             _panel(page.axes[place], lines, value, label)

@@ -8,8 +8,8 @@ MUTED = "#6f6f6f"     # footers, secondary text
 RULE = "#9a9a9a"      # reference lines (ideal, equal)
 GRID = "#e4e4e4"
 
-#: Okabe-Ito palette and grey, and the dark colours of Tol's muted scheme: safe for colour-blind readers; one backend,
-#: one colour, everywhere.
+#: Okabe-Ito palette and grey, and the dark colours of Tol's muted scheme: safe for colour-blind readers. So many more
+#: are not; lines of the strategies are named at their ends. One backend, one colour, everywhere.
 BACKENDS = {
     "naive": "#000000",
     "naive_omp": "#E69F00",
@@ -23,6 +23,29 @@ BACKENDS = {
     "tiles_omp": "#332288",
     "tiles_tbb": "#117733",
     "naive_tiles_omp": "#882255",
+    "atomic_add": "#B2182B",
+    "thread_private": "#8C510A",
+    "touched_blocks": "#BF812D",
+    "per_pass_buffers": "#80CDC1",
+    "colour18": "#01665E",
+    "colour4": "#35978F",
+    "sliced_locks": "#C51B7D",
+    "sliced_2colour": "#4D9221",
+    "task_conflicts": "#762A83",
+    "pair_list_omp": "#B8A900",
+    "verlet_list": "#5C5C3D",
+    "half_cells": "#3B528B",
+}
+#: How threads are kept apart (backend_traits::conflicts), a colour each.
+KINDS = {
+    "serial": "#BDB9A6",
+    "gather": "#E69F00",
+    "colours": "#0072B2",
+    "atomics": "#D55E00",
+    "copies": "#009E73",
+    "locks": "#CC79A7",
+    "tasks": "#56B4E9",
+    "unsaid": "#5C5C5C",
 }
 #: For a backend that this list does not know yet: a colour by its name, the same in each figure.
 SPARE = ("#7A4B1E", "#6A5ACD", "#8B8B00", "#8B0000", "#2F4F4F")
@@ -41,6 +64,10 @@ HOLDS, FAILS = "#0072B2", "#D55E00"  # a self-test that holds, or does not
 
 _MARKERS = {5: "v", 6: "o", 7: "s", 8: "D", 9: "^", 4: "<", 10: ">"}
 _LINES = {"serial": ":", "omp": "-", "tbb": (0, (5, 2))}
+#: The runtime of backends whose names do not end in it.
+_RUNTIMES = {**dict.fromkeys(("atomic_add", "thread_private", "touched_blocks", "per_pass_buffers", "colour18", "colour4",
+                              "sliced_locks", "sliced_2colour", "verlet_list", "half_cells"), "omp"),
+             "task_conflicts": "tbb"}
 
 SIZE, SMALL, TITLE = 9.5, 8.5, 13
 
@@ -58,9 +85,9 @@ def marker(m):
 
 
 def runtime(backend):
-    """Return the runtime that a backend's name ends in: omp, tbb or serial."""
+    """Return the runtime of a backend: what its name ends in, omp or tbb, else that in a list, else serial."""
     ending = backend.rsplit("_", 1)[-1]
-    return ending if ending in _LINES else "serial"
+    return ending if ending in _LINES else _RUNTIMES.get(backend, "serial")
 
 
 def line(backend):

@@ -33,7 +33,7 @@ def load(path):
     except (ValueError, RecursionError) as problem:
         raise SummaryError(f"{path} is not usable JSON: {problem}") from None
     check(data, path)
-    return data
+    return {**dict.fromkeys(schema.LATER, []), **data}
 
 
 def check(data, path="the summary"):
@@ -46,8 +46,11 @@ def check(data, path="the summary"):
         if not isinstance(data.get(table), list):
             raise SummaryError(f'{path} has no list "{table}"')
     _check_row({"title": data.get("title")}, {"title": schema.TEXT}, path)
-    for table, fields in TABLES.items():
-        for number, row in enumerate(data[table]):
+    for table in schema.LATER:
+        if not isinstance(data.get(table, []), list):
+            raise SummaryError(f'{path}: "{table}" is no list')
+    for table, fields in {**TABLES, **schema.LATER}.items():
+        for number, row in enumerate(data.get(table, [])):
             _check_row(row, fields, f"{path}: {table}[{number}]")
     for number, entry in enumerate(data["points"]):
         _check_entry(entry, f"{path}: points[{number}]")

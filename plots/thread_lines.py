@@ -7,53 +7,58 @@ import style
 
 
 class Line:
-    """One line: rows of one backend and M, sorted by threads, without rows whose value is null."""
+    """One line: rows of one backend and M, sorted by threads, without rows whose value is null.
 
-    def __init__(self, rows, value, text):
+    Its colour is the backend's unless another is said; then it is named by `named` before the backend.
+    """
+
+    def __init__(self, rows, value, text, colour=None, named=""):
         self.rows = sorted((row for row in rows if row[value] is not None),
                            key=lambda row: row["threads"])
         self.value, self.text = value, text
         self.backend, self.m = rows[0]["backend"], rows[0]["M"]
-        self.name = f"{self.backend} {panels.cells(rows[0])}"
+        self.name = f"{named} {self.backend} {panels.cells(rows[0])}".strip()
+        self.colour = colour or style.colour(self.backend)
 
     def draw(self, axes):
         """Draw the line, named "backend M=m", and its intervals where they are known."""
         x = [row["threads"] for row in self.rows]
         y = [row[self.value] for row in self.rows]
-        look = {"color": style.colour(self.backend), "linestyle": style.line(self.backend),
+        look = {"color": self.colour, "linestyle": style.line(self.backend),
                 "marker": style.marker(self.m), "markeredgecolor": style.INK,
                 "markeredgewidth": 0.6, "markersize": 5.5, "linewidth": 1.8, "zorder": 3}
         axes.plot(x, y, label=self.name, **look)
         intervals(axes, self.known(), "threads", self.value, f"interval {self.name}", look["color"])
 
     def known(self):
-        """Return the rows with an interval; the summary holds them for speedups only."""
-        return [row for row in self.rows if self.value == "speedup"
+        """Return the rows with an interval; the summary holds them for these values only."""
+        return [row for row in self.rows if self.value in ("speedup", "ratio")
                 and row["low"] is not None and row["high"] is not None]
 
     def end(self):
         """Return what labels.at_ends needs."""
         last = self.rows[-1]
-        return last["threads"], last[self.value], self.text, style.colour(self.backend)
+        return last["threads"], last[self.value], self.text, self.colour
 
 
-def sheet(summary, title, groups, value_axis, references):
+def sheet(summary, title, groups, value_axis, references, key=(), most=3):
     """Draw groups of panels and return the figure.
 
     groups: per panels.Panel a list of (column text, [Line]); value_axis(axes, lines, counts) sets
-    the y axis; references(axes, counts, lines) draws lines and returns their ends for the labels.
+    the y axis; references(axes, counts, lines) draws lines and returns their ends for the labels; `most` panels
+    stand side by side.
     """
     keys = [panel for panel, _ in groups]
     common, own = panels.titles(keys)
-    places = layout.arrange(summary, [columns for _, columns in groups])
+    places = layout.arrange(summary, [columns for _, columns in groups], most)
     titles = {place: panels.joined(text, column) for (_, columns), text, group
               in zip(groups, own, places) for (column, _), place in zip(columns, group)}
     lines = [line for _, columns in groups for _, some in columns for line in some]
     if any(line.known() for line in lines):
         common += f"; error bars: {confidence(row for line in lines for row in line.known())}"
-    most = max(len(some) for _, columns in groups for _, some in columns) + 3
-    page = layout.Sheet(summary, title, common, titles, 2.9, max(2.35, most * labels.STEP + 0.1),
-                        (0.62, labels.room([line.text for line in lines] + ["machine's bandwidth"])))
+    ends = max(len(some) for _, columns in groups for _, some in columns) + 3
+    page = layout.Sheet(summary, title, common, titles, 2.9, max(2.35, ends * labels.STEP + 0.1),
+                        (0.62, labels.room([line.text for line in lines] + ["machine's bandwidth"])), key)
     counts = sorted({row["threads"] for line in lines for row in line.rows})
     for (_, columns), group in zip(groups, places):
         for (_, some), place in zip(columns, group):

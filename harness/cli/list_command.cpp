@@ -60,6 +60,7 @@ nlohmann::json as_json() {
          {"threads", name_of(b.traits.threads)},
          {"symmetric", b.traits.symmetric},
          {"deterministic", b.traits.deterministic},
+         {"conflicts", name_of(b.traits.conflicts)},
          {"vector", b.traits.vector},
          {"blocks", b.traits.blocks},
          {"precisions", precisions_of(b, r)},

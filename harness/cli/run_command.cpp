@@ -29,7 +29,7 @@ constexpr level_option level_options[] = {
     {"case", "dam_break", "initial condition (pairsum list)"},
     {"dx", "0.02", "particle spacing in m, a list; 0.00594 is the talk's 2,014,966 particles"},
     {"state", "rest", "rest, perturbed, or both"},
-    {"backend", "naive_omp,symmetric_omp", "backends, a list (pairsum list)"},
+    {"backend", "naive_omp,symmetric_omp", "backends, a list, or all (pairsum list)"},
     {"M", "6,7", "hash sizes, like 6,7 or 5..9: the grid is folded to 2^M cells an axis"},
     {"threads", "all", "numbers of threads; all: 1, 2, 4, ... and every core; cores: every core alone"},
     {"granularity", "default",

@@ -14,6 +14,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/plan/levels.hpp"
+#include "harness/plan/variants.hpp"
 #include "harness/report/whole_file.hpp"
 #include "harness/run/interrupt.hpp"
 #include "harness/tune/profile_json.hpp"
@@ -65,10 +66,7 @@ std::string list_of(const Names& names) {
 std::string every_word(const std::string& key) {
   if (key == "grid") return list_of(grid_names());
   if (key == "isa") return list_of(isa_names());
-  std::vector<std::string_view> usable;
-  for (const backend_entry& b : registry::instance().backends())
-    if (b.unavailable.empty()) usable.push_back(b.traits.name);
-  return list_of(usable);
+  return list_of(available_backends());
 }
 
 /// Throws, before anything is measured, if a profile could not be written there.

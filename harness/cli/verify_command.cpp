@@ -14,6 +14,7 @@
 #include "harness/run/point_setup.hpp"
 #include "harness/verify/verify_all.hpp"
 #include "sum/grids.hpp"
+#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -23,7 +24,7 @@ struct verify_options {
   std::string case_name, dx, state = "perturbed", dim = "all", precision = "all", interaction = "all",
                              smoothing = "all", backend = "all", grid = "all", isa = "all", block = "auto",
                              M = "2,3,6,7", threads = "1,2,3,7";
-  bool each = false;
+  bool each = false, all_M = true;
 };
 
 /// The words of an option; "all" stands for `every`.
@@ -94,6 +95,17 @@ void fill_in_defaults(run_request& q, const verify_options& o) {
   if (o.dx.empty()) q.dx = {q.dim == 1 ? 0.0005 : q.dim == 2 ? 0.01 : 0.04};
 }
 
+/// Of the M that nobody asked for, a periodic box has those whose torus closes where it does.
+void leave_out_M_that_do_not_fit(run_request& q, const initial_condition& c) {
+  if (!c.periodic) return;
+  setup s = setup_of(c);
+  s.grid = "hashed_grid";
+  std::erase_if(q.M, [&](int M) {
+    s.M = M;
+    return !grid_fits(s);
+  });
+}
+
 int verify(const verify_options& o) {
   const registry& r = registry::instance();
   run_request q = o.request;
@@ -101,10 +113,7 @@ int verify(const verify_options& o) {
   q.states = parse_words("--state", o.state);
   q.M = parse_counts("--M", o.M, 0);
   q.threads = parse_counts("--threads", o.threads, usable_cores());
-  std::vector<std::string> usable;
-  for (const backend_entry& b : r.backends())
-    if (b.unavailable.empty()) usable.emplace_back(b.traits.name);
-  q.backends = words_or_all("--backend", o.backend, usable);
+  q.backends = words_or_all("--backend", o.backend, available_backends(r));
   q.precisions = words_or_all("--precision", o.precision, r.precisions());
   q.interactions = words_or_all("--interaction", o.interaction, r.interactions());
   q.smoothings = words_or_all("--smoothing", o.smoothing, r.smoothings());
@@ -141,6 +150,7 @@ int verify(const verify_options& o) {
         run_request here = q;
         here.dx = {dx};
         here.states = {state};
+        if (!o.all_M) leave_out_M_that_do_not_fit(here, c);
         verify_all(r, c, verify_plan_of(here, r), [&](const verify_line& l) { lines.add(l); });
         made += lines.made;
         failed += lines.failed;
@@ -165,7 +175,11 @@ void add_verify_command(CLI::App& app, action& chosen) {
       ->capture_default_str();
   command->add_option("--backend", o->backend, "backends, or all")->capture_default_str();
   command->add_option("--interaction", o->interaction, "interactions, or all that are built")->capture_default_str();
-  command->add_option("--M", o->M, "hash sizes, like 2,3 or 5..9")->capture_default_str();
+  const auto* const M = command
+                            ->add_option("--M", o->M,
+                                         "hash sizes, like 2,3 or 5..9; of the default a periodic box "
+                                         "takes those that go round it")
+                            ->capture_default_str();
   command->add_option("--grid", o->grid, "grids, or all")->capture_default_str();
   command->add_option("--isa", o->isa, "instruction sets of vector backends, or all of this build and machine")
       ->capture_default_str();
@@ -177,7 +191,10 @@ void add_verify_command(CLI::App& app, action& chosen) {
   command->add_option("--dim", o->dim, "dimensions, or all that are built")->capture_default_str();
   command->add_option("--seed", o->request.seed, "of the perturbation and of random places")->capture_default_str();
   command->add_flag("--each", o->each, "a line per sum, not per formula");
-  command->callback([&chosen, o] { chosen = [o] { return verify(*o); }; });
+  command->callback([&chosen, o, M] {
+    o->all_M = M->count() > 0;
+    chosen = [o] { return verify(*o); };
+  });
 }
 
 }  // namespace pairsum::harness

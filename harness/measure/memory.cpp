@@ -16,6 +16,14 @@ void keep_freed_memory() {
 #endif
 }
 
+std::optional<std::uint64_t> heap_bytes() {
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
+  const struct mallinfo2 m = mallinfo2();
+  if (m.uordblks + m.hblkhd > 0) return m.uordblks + m.hblkhd;  // 0 of an allocator in glibc's place
+#endif
+  return std::nullopt;
+}
+
 void reset_peak_rss() {
   std::ofstream refs("/proc/self/clear_refs");
   refs << "5\n";

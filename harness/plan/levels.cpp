@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/isa.hpp"
+#include "harness/plan/variants.hpp"
 #include "harness/plan/words.hpp"
 
 namespace pairsum::harness {
@@ -52,6 +53,15 @@ level isas() {
   };
   return one;
 }
+/// Backends; "all" is every one that this build has.
+level backends() {
+  level one = words(&run_request::backends);
+  one.read = [read = one.read](run_request& r, const std::string& key, const std::string& text, int cores) {
+    read(r, key, text, cores);
+    if (r.backends == std::vector<std::string>{"all"}) r.backends = available_backends();
+  };
+  return one;
+}
 level word(std::string run_request::*member) {
   return {[member](run_request& r, const std::string&, const std::string& text, int) { r.*member = text; },
           [member](const run_request& r) { return json(r.*member); }};
@@ -90,7 +100,7 @@ const std::map<std::string, level>& levels() {
        {[](r& q, const std::string& key, const std::string& text, int) { q.dx = parse_numbers(key, text); },
         [](const r& q) { return json(q.dx); }}},
       {"state", words(&r::states)},
-      {"backend", words(&r::backends)},
+      {"backend", backends()},
       {"M", counts(&r::M)},
       {"threads", counts(&r::threads, true)},
       {"dim", count(&r::dim)},

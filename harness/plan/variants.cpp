@@ -69,6 +69,13 @@ std::vector<cell_grid> grids_of(const run_request& r) {
   return all;
 }
 
+std::vector<std::string> available_backends(const registry& all) {
+  std::vector<std::string> names;
+  for (const backend_entry& b : all.backends())
+    if (b.unavailable.empty()) names.emplace_back(b.traits.name);
+  return names;
+}
+
 std::vector<backend_way> ways_of(const run_request& r, const std::vector<std::string>& backends, const registry& all) {
   std::vector<backend_way> ways;
   for (const std::string& backend : backends) {

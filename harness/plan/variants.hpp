@@ -22,6 +22,9 @@ struct backend_way {
   bool operator==(const backend_way&) const = default;
 };
 
+/// The backends that this build has and the machine lets it use.
+std::vector<std::string> available_backends(const registry& all = registry::instance());
+
 /// Every way in which the request runs these backends: `isa` varies for vector backends alone, for the others it is
 /// what the build was compiled for; blocks vary for those that have some.
 std::vector<backend_way> ways_of(const run_request& r, const std::vector<std::string>& backends, const registry& all);

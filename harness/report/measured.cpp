@@ -94,6 +94,10 @@ std::optional<round_value> value_of(std::map<int, std::vector<sample>>& repetiti
   return value;
 }
 
+void raise(std::optional<std::uint64_t>& most, const std::optional<std::uint64_t>& value) {
+  if (value) most = std::max(most.value_or(0), *value);
+}
+
 void add_group(measurements& all, const group_key& key, group& g, const builds& known) {
   failed_point failed{key.point, key.study, 0, ""};
   measured_point measured;
@@ -110,8 +114,8 @@ void add_group(measurements& all, const group_key& key, group& g, const builds& 
       for (const sample& s : steps) {
         means.add(s);
         if (!measured.work) measured.work = s.work;
-        if (s.peak_rss_bytes)
-          measured.peak_rss_bytes = std::max(measured.peak_rss_bytes.value_or(0), *s.peak_rss_bytes);
+        raise(measured.peak_rss_bytes, s.peak_rss_bytes);
+        raise(measured.workspace_bytes, s.workspace_bytes);
       }
     }
   }

@@ -56,10 +56,10 @@ struct measured_point {
   std::size_t repetitions = 0;  ///< per round, the most
   std::map<round_key, round_value> rounds;
   std::optional<work_row> work;
-  std::optional<thread_times> busy_s, waiting_s;  ///< mean over all timed steps
-  std::optional<counters_row> counters;           ///< mean over all timed steps
-  std::optional<std::uint64_t> peak_rss_bytes;
-  std::string fingerprint;  ///< of the first row
+  std::optional<thread_times> busy_s, waiting_s;                 ///< mean over all timed steps
+  std::optional<counters_row> counters;                          ///< mean over all timed steps
+  std::optional<std::uint64_t> peak_rss_bytes, workspace_bytes;  ///< the most of all steps
+  std::string fingerprint;                                       ///< of the first row
 };
 
 /// A point with rows that did not pass the verification; those rows are in no other place.
@@ -100,6 +100,9 @@ std::vector<double> values_of(const measured_point& point, std::optional<double>
 
 /// The median of one phase, if it took time in every round: what can be compared. Empty otherwise.
 std::optional<double> comparable_time(const measured_point& point, std::optional<double> phases::*phase);
+
+/// The share of the threads' time in the passes that they spend waiting; empty if that was not observed.
+std::optional<double> wait_share(const measured_point& point);
 
 /// What the machine does at best, measured by the point's build with so many threads; null if that was not measured.
 const peak_row* peak_of(const measurements& all, const measured_point& point, int threads);

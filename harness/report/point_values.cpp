@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "harness/report/measured.hpp"
 #include "harness/rows/point_words.hpp"
@@ -26,6 +27,14 @@ std::optional<double> comparable_time(const measured_point& point, std::optional
   const std::vector<double> values = values_of(point, phase);
   const bool positive = std::ranges::all_of(values, [](double v) { return v > 0; });
   return positive ? median_of(point, phase) : std::nullopt;
+}
+
+std::optional<double> wait_share(const measured_point& point) {
+  if (!point.busy_s || !point.waiting_s) return std::nullopt;
+  double busy = 0, waiting = 0;
+  for (const auto& pass : *point.busy_s) busy = std::accumulate(pass.begin(), pass.end(), busy);
+  for (const auto& pass : *point.waiting_s) waiting = std::accumulate(pass.begin(), pass.end(), waiting);
+  return busy + waiting > 0 ? std::optional(waiting / (busy + waiting)) : std::nullopt;
 }
 
 const peak_row* peak_of(const measurements& all, const measured_point& point, int threads) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "core/error.hpp"
 #include "core/names.hpp"
@@ -10,6 +9,7 @@
 #include "harness/report/comparisons.hpp"
 #include "harness/report/models.hpp"
 #include "harness/report/self_tests.hpp"
+#include "harness/report/strategies.hpp"
 #include "harness/stats/interval.hpp"
 #include "harness/stats/median.hpp"
 #include "harness/stats/variance.hpp"
@@ -74,12 +74,7 @@ json variance_entry(const measured_point& p) {
 
 json passes_entry(const measured_point& p) {
   if (!p.busy_s || !p.waiting_s) return nullptr;
-  double busy = 0, waiting = 0;
-  for (const auto& pass : *p.busy_s) busy = std::accumulate(pass.begin(), pass.end(), busy);
-  for (const auto& pass : *p.waiting_s) waiting = std::accumulate(pass.begin(), pass.end(), waiting);
-  json entry{{"busy_s", *p.busy_s}, {"barrier_wait_s", *p.waiting_s}, {"wait_share", nullptr}};
-  if (busy + waiting > 0) entry["wait_share"] = waiting / (busy + waiting);
-  return entry;
+  return {{"busy_s", *p.busy_s}, {"barrier_wait_s", *p.waiting_s}, {"wait_share", or_null(wait_share(p))}};
 }
 
 json point_entry(const measurements& all, const measured_point& p) {
@@ -103,6 +98,7 @@ json point_entry(const measurements& all, const measured_point& p) {
   entry["useful_pair_ratio"] = useful_pair_ratio(p);
   entry["work"] = p.work ? json(*p.work) : json(nullptr);
   entry["peak_rss_bytes"] = p.peak_rss_bytes ? json(*p.peak_rss_bytes) : json(nullptr);
+  entry["workspace_bytes"] = p.workspace_bytes ? json(*p.workspace_bytes) : json(nullptr);
   entry["fingerprint"] = p.fingerprint;
   return entry;
 }
@@ -173,6 +169,11 @@ json build_summary(const measurements& all) {
   summary["runtime_comparison"] = runtime_comparisons(all, caveats);
   summary["compiler_comparison"] = compiler_comparisons(all, caveats);
   summary["m_comparison"] = m_comparisons(all, caveats);
+  const std::vector<ladder> ladders = ladders_of(all);
+  summary["strategy_ladder"] = strategy_ladder(all, ladders);
+  summary["strategy_threads"] = strategy_threads(all, ladders);
+  summary["strategy_shifts"] = strategy_shifts(all, ladders);
+  summary["strategies"] = strategies(summary);
   summary["self_test"] = self_tests(all, caveats);
   summary["answer"] = answer(all);
   summary["questions"] = questions(summary);

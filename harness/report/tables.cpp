@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "harness/report/report_tables.hpp"
+#include "harness/report/strategy_tables.hpp"
 #include "harness/report/table_cells.hpp"
 #include "harness/rows/point_words.hpp"
 
@@ -54,7 +55,14 @@ template <class Print>
 std::string tables_of(const json& summary, std::size_t series, Print print) {
   return print(algorithm_table(summary, series)) + print(scaling_table(summary, series)) +
          print(runtime_table(summary, series)) + print(m_table(summary, series)) + print(bound_table(summary, series)) +
-         print(phase_table(summary, series)) + print(build_table(summary, series));
+         print(phase_table(summary, series)) + print(strategy_table(summary, series)) +
+         print(build_table(summary, series));
+}
+
+template <class Print>
+std::string tables_of_all(const json& summary, Print print) {
+  return print(strategies_table(summary)) + print(shifts_table(summary)) + breakdown_list(summary) +
+         print(self_test_table(summary));
 }
 
 std::string failed_points(const json& summary) {
@@ -84,7 +92,7 @@ std::string print_tables(const json& summary) {
   for (std::size_t series = 0; series < all.size(); ++series)
     out += wrapped("== " + title(all[series]) + ": " + details(summary, all[series])) + "\n" +
            summation_text(summary, series) + tables_of(summary, series, as_text);
-  return out + as_text(self_test_table(summary)) + failed_points(summary) + caveat_list(summary);
+  return out + tables_of_all(summary, as_text) + failed_points(summary) + caveat_list(summary);
 }
 
 std::string print_markdown(const json& summary) {
@@ -93,7 +101,7 @@ std::string print_markdown(const json& summary) {
   for (std::size_t series = 0; series < all.size(); ++series)
     out += "## " + title(all[series]) + "\n\n" + wrapped(details(summary, all[series])) + "\n" +
            as_markdown(summation_table(summary, series)) + tables_of(summary, series, as_markdown);
-  out += as_markdown(self_test_table(summary));
+  out += tables_of_all(summary, as_markdown);
   const std::string rest = failed_points(summary) + caveat_list(summary);
   return out + (rest.empty() ? "" : "```text\n" + rest + "```\n");
 }

@@ -177,6 +177,7 @@ void to_json(json& j, const sample& s) {
   j["counters"] = or_null(s.counters);
   j["work"] = or_null(s.work);
   j["peak_rss_bytes"] = or_null(s.peak_rss_bytes);
+  j["workspace_bytes"] = or_null(s.workspace_bytes);
   j["verify"] = s.verify;
   if (s.error) j["error"] = *s.error;
 }
@@ -206,6 +207,8 @@ void from_json(const json& j, sample& s) {
   s.counters = read_or_null<counters_row>(from, "counters", read_counters);
   s.work = read_or_null<work_row>(from, "work", read_work);
   s.peak_rss_bytes = from.count_or_null("peak_rss_bytes");
+  s.workspace_bytes.reset();  // rows of before it was measured have none
+  if (from.has("workspace_bytes")) s.workspace_bytes = from.count_or_null("workspace_bytes");
   s.verify = read_verify(from.nested("verify"));
   from.finish();
 }

@@ -107,6 +107,7 @@ struct sample {
   std::optional<counters_row> counters;
   std::optional<work_row> work;
   std::optional<std::uint64_t> peak_rss_bytes;
+  std::optional<std::uint64_t> workspace_bytes{};  ///< that the backend holds after its first evaluation
   verify_row verify;
   std::optional<std::string> error;
   bool operator==(const sample&) const = default;

@@ -221,6 +221,7 @@ class errand_run {
       s.counters = step.counted;
       s.work = k == 0 ? r.work : std::nullopt;
       s.peak_rss_bytes = r.peak_rss_bytes;
+      s.workspace_bytes = r.workspace_bytes;
       s.verify = {step.checked.max_rel_err, step.checked.bound, fmt::format("{:016x}", step.checked.fingerprint)};
       writer_->write(s);
       sum += step.times.sum_s.value_or(0);

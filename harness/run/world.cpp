@@ -118,6 +118,10 @@ void add_to(std::optional<counters_row>& a, const counters::counts& b) {
   add_to(a->cache_misses, b.cache_misses);
 }
 
+std::optional<std::uint64_t> growth(std::uint64_t before, const std::optional<std::uint64_t>& now) {
+  return now ? std::optional(*now > before ? *now - before : 0) : std::nullopt;
+}
+
 }  // namespace
 
 world::result world::measure(const point& p, int steps) {
@@ -145,6 +149,8 @@ world::result world::measure(const point& p, int steps) {
       stopwatch clock;
       summation->index(t);
       times.index_s = times.index_s.value_or(0) + clock.lap();
+      const auto held_before = evaluations == 0 ? heap_bytes() : std::nullopt;
+      checking += clock.lap();
       summation->prepare(t);
       times.prepare_s = times.prepare_s.value_or(0) + clock.lap();
       summation->zero(t);
@@ -157,6 +163,7 @@ world::result world::measure(const point& p, int steps) {
       checking += clock.lap();
       summation->reduce(t);
       times.reduce_s = times.reduce_s.value_or(0) + clock.lap();
+      if (held_before) out.workspace_bytes = growth(*held_before, heap_bytes());
       if (passes.any()) {
         add_to(now.threads_busy_s, passes.busy());
         add_to(now.barrier_wait_s, passes.waiting());

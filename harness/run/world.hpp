@@ -57,9 +57,10 @@ class world {
     std::vector<step_result> steps;
     std::optional<work_row> work;  ///< of the initial state
     std::optional<std::uint64_t> peak_rss_bytes;
-    std::size_t lost = 0;      ///< particles that left Omega during the steps
-    bool interrupted = false;  ///< the steps after an interrupt were not made
-    std::string error;         ///< set if a step was wrong; steps after it were not made
+    std::optional<std::uint64_t> workspace_bytes;  ///< by which the first prepare, zero, sum and reduce grew the heap
+    std::size_t lost = 0;                          ///< particles that left Omega during the steps
+    bool interrupted = false;                      ///< the steps after an interrupt were not made
+    std::string error;                             ///< set if a step was wrong; steps after it were not made
   };
 
   /// Loads the initial state and makes the steps. Each step's rates are verified before its times are handed out; a

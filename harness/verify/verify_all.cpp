@@ -45,6 +45,7 @@ setup in_world(setup s, const initial_condition& c) {
   s.dim = world.dim;
   s.omega_low = world.omega_low;
   s.omega_high = world.omega_high;
+  s.periodic = world.periodic;
   s.constants = world.constants;
   return s;
 }

@@ -23,7 +23,8 @@ struct naive {
       .accumulates = false,
       .evaluations_per_pair = 2,
       .sweeps_per_colour = false,
-      .keeps_pairs = false};
+      .keeps_pairs = false,
+      .conflicts = conflict_avoidance::serial};
 
   template <class I>
   struct workspace {

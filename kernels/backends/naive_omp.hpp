@@ -20,7 +20,8 @@ struct naive_omp {
       .evaluations_per_pair = 2,
       .sweeps_per_colour = false,
       .keeps_pairs = false,
-      .loop = {schedule::dynamic, 64}};
+      .loop = {schedule::dynamic, 64},
+      .conflicts = conflict_avoidance::gather};
 
   template <class I>
   struct workspace {

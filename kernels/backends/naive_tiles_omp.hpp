@@ -27,7 +27,8 @@ struct naive_tiles_omp {
                                          .keeps_pairs = false,
                                          .loop = {schedule::dynamic, 1},
                                          .vector = true,
-                                         .blocks = true};
+                                         .blocks = true,
+                                         .conflicts = conflict_avoidance::gather};
 
   template <class I>
   struct workspace : tile_workspace<I, false> {

@@ -22,7 +22,8 @@ struct ppm_stencil {
       .accumulates = true,
       .evaluations_per_pair = 1,
       .sweeps_per_colour = false,
-      .keeps_pairs = false};
+      .keeps_pairs = false,
+      .conflicts = conflict_avoidance::serial};
 
   template <class I>
   struct workspace {

@@ -32,7 +32,8 @@ struct sliced_2colour {
       .sweeps_per_colour = false,
       .keeps_pairs = false,
       .loop = {schedule::dynamic, 1},
-      .colours = {2, 2, 2}};
+      .colours = {2, 2, 2},
+      .conflicts = conflict_avoidance::colours};
 
   template <class I>
   struct workspace {

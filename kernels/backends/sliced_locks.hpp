@@ -69,7 +69,8 @@ struct sliced_locks {
       .sweeps_per_colour = false,
       .keeps_pairs = false,
       .loop = {schedule::fixed, 1},
-      .colours = {1, 1, 1}};
+      .colours = {1, 1, 1},
+      .conflicts = conflict_avoidance::locks};
 
   template <class I>
   struct workspace : sliced_workspace<I, omp_locks> {

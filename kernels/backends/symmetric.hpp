@@ -24,7 +24,8 @@ struct symmetric {
       .accumulates = true,
       .evaluations_per_pair = 1,
       .sweeps_per_colour = true,
-      .keeps_pairs = false};
+      .keeps_pairs = false,
+      .conflicts = conflict_avoidance::serial};
 
   template <class I>
   struct workspace : coloured_workspace<I> {

@@ -28,7 +28,8 @@ struct symmetric_omp {
       .evaluations_per_pair = 1,
       .sweeps_per_colour = true,
       .keeps_pairs = false,
-      .loop = {schedule::dynamic, 32}};
+      .loop = {schedule::dynamic, 32},
+      .conflicts = conflict_avoidance::colours};
 
   template <class I>
   struct workspace : coloured_workspace<I> {

@@ -25,7 +25,8 @@ struct symmetric_tbb {
       .evaluations_per_pair = 1,
       .sweeps_per_colour = true,
       .keeps_pairs = false,
-      .loop = {schedule::automatic, 32}};
+      .loop = {schedule::automatic, 32},
+      .conflicts = conflict_avoidance::colours};
 
   template <class I>
   struct workspace : coloured_workspace<I> {

@@ -19,8 +19,8 @@
 #include "core/tbb_graph.hpp"
 #include "sum/backend.hpp"
 #include "sum/block_conflicts.hpp"
+#include "sum/block_setup.hpp"
 #include "sum/layers.hpp"
-#include "sum/setup.hpp"
 
 namespace pairsum {
 
@@ -38,7 +38,8 @@ struct task_conflicts {
       .keeps_pairs = false,
       .loop = {schedule::simple, 1},  // a task at a time, whatever the team says
       .blocks = true,
-      .colours = {1, 1, 1}};
+      .colours = {1, 1, 1},
+      .conflicts = conflict_avoidance::tasks};
 
   template <class I>
   struct workspace {
@@ -46,13 +47,7 @@ struct task_conflicts {
     std::unique_ptr<tbb_graph> graph;
 
     /// Throws pairsum::error for a block that is not to be had.
-    void configure(const setup& s) {
-      check_block(s.block);
-      if (s.block == "auto")
-        blocks.shape(limits_of(s.cache_bytes, bytes_per_cell, s.cores), true);
-      else
-        blocks.shape(block_shape::parse(s.block), true);
-    }
+    void configure(const setup& s) { shape_blocks(blocks, s, column_bytes_per_cell<I>(), true); }
 
     template <class Probe>
     void prepare(const problem<I>& p, const team& t, Probe&) {
@@ -82,11 +77,6 @@ struct task_conflicts {
     }
 
     std::string block() const { return blocks.shape().word(); }
-
-   private:
-    /// Of the columns, at the talk's spacing of H/2.
-    static constexpr std::size_t bytes_per_cell =
-        (std::size_t{1} << I::dim) * (I::dim * sizeof(typename I::real) + sizeof(particle_of<I>) + sizeof(rates_of<I>));
   };
 };
 

@@ -30,7 +30,8 @@ struct tiles_omp {
       .keeps_pairs = false,
       .loop = {schedule::dynamic, 1},
       .vector = true,
-      .blocks = true};
+      .blocks = true,
+      .conflicts = conflict_avoidance::colours};
 
   template <class I>
   struct workspace : tile_workspace<I, true> {

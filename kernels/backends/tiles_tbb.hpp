@@ -30,7 +30,8 @@ struct tiles_tbb {
       .keeps_pairs = false,
       .loop = {schedule::simple, 1},
       .vector = true,
-      .blocks = true};
+      .blocks = true,
+      .conflicts = conflict_avoidance::colours};
 
   template <class I>
   struct workspace : tile_workspace<I, true> {

@@ -46,11 +46,14 @@ void perturb(initial_condition& c, double dx, std::uint64_t seed) {
   particle_table& p = c.particles;
   const double v_max = 0.1 * c.eos.sound_speed0();
   const counter_random jitter(seed, 1), velocity(seed, 2), density(seed, 3);
+  box<3, double> omega;
+  for (int d = 0; d < p.dim; ++d) omega.low[d] = c.omega_low[d], omega.high[d] = c.omega_high[d];
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p.kind[i] != particle_kind::fluid) continue;
     for (int d = 0; d < p.dim; ++d) {
       const std::uint64_t at = 3 * i + static_cast<std::uint64_t>(d);
       p.x[d][i] += dx * (-0.3 + jitter.uniform(at, -0.05, 0.05));
+      if (c.periodic) p.x[d][i] = omega.wrapped(d, p.x[d][i]);
       p.v[d][i] = velocity.uniform(at, -v_max, v_max);
     }
     p.rho[i] *= density.uniform(i, 0.99, 1.01);

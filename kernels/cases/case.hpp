@@ -21,6 +21,7 @@ struct case_parameters {
 struct initial_condition {
   particle_table particles;
   std::vector<double> omega_low, omega_high;  ///< m
+  bool periodic = false;                      ///< along every axis
   double H = 0;                               ///< m
   double gravity = 9.81;                      ///< m/s2, along -y (along -x in 1D)
   tait eos;

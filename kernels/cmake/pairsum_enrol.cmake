@@ -1,5 +1,10 @@
-# Writes the enrolment, so that a change compiles little: per (dimension, precision) one source for each backend, and for each
-# interaction one with what the backends share and one with the reference. A last one calls them all.
+# Writes the enrolment, so that a change compiles little: per (dimension, precision) one source for a few backends, one with what
+# the backends share and one with the reference. A last one calls them all.
+
+# Backends of one source. Half of what one alone costs is reading and instantiating what they have in common, so that four
+# together take 60 % of the time of four apart; with more, a change in one backend would compile too many others again.
+set(PAIRSUM_BACKENDS_PER_SOURCE 4)
+
 function(pairsum_write path text)
   if(EXISTS ${path})
     file(READ ${path} old)
@@ -10,13 +15,10 @@ function(pairsum_write path text)
   file(WRITE ${path} "${text}")
 endfunction()
 
-# The types of an interaction in one dimension and precision, all of them without `interaction`. Precision mixed is for lanes.
-function(pairsum_types out dim precision interaction)
+# The types of all interactions in one dimension and precision. Precision mixed is for lanes.
+function(pairsum_types out dim precision)
   set(types "")
   foreach(i IN LISTS BUILT_INTERACTIONS)
-    if(interaction AND NOT i STREQUAL interaction)
-      continue()
-    endif()
     if(precision STREQUAL mixed)
       if(i IN_LIST PAIRSUM_SCALAR_INTERACTIONS)
         continue()
@@ -72,6 +74,28 @@ macro(pairsum_enrol_vectors where types)
   list(APPEND sources ${folder}/vectors_${where}.cpp)
 endmacro()
 
+# The sources of the backends, named by the number of each group. Only the vector backends take precision mixed: one source is
+# enough for it.
+macro(pairsum_enrol_backends where types)
+  set(left ${BUILT_BACKENDS})
+  set(group 0)
+  while(left)
+    set(some ${left})
+    if(NOT precision STREQUAL mixed)
+      list(SUBLIST left 0 ${PAIRSUM_BACKENDS_PER_SOURCE} some)
+    endif()
+    list(REMOVE_ITEM left ${some})
+    math(EXPR group "${group} + 1")
+    set(bodies "")
+    foreach(b IN LISTS some)
+      pairsum_each(body "  enrol_summation<${b}, @>(r);" ${types})
+      string(APPEND bodies "${body}")
+    endforeach()
+    pairsum_each(includes "#include \"backends/@.hpp\"" ${some})
+    pairsum_source(backends_${group}_${where} "${includes}#include \"sum/enrol.hpp\"\n#include \"shared_${where}.hpp\"\n" "${bodies}")
+  endwhile()
+endmacro()
+
 function(pairsum_enrol out_sources folder)
   list(JOIN PAIRSUM_SCALAR_INTERACTIONS "|" no_lanes)
   foreach(isa IN LISTS BUILT_ISAS)
@@ -110,39 +134,21 @@ function(pairsum_enrol out_sources folder)
   foreach(dim IN LISTS BUILT_DIMS)
     foreach(precision IN LISTS BUILT_PRECISIONS)
       set(where "${dim}_${precision}")
-      foreach(i IN LISTS BUILT_INTERACTIONS)
-        pairsum_types(types ${dim} ${precision} ${i})
-        if(NOT types)
-          continue()
-        endif()
-        set(head "#include \"interactions/${i}.hpp\"\n#include \"sum/mixed.hpp\"\n${smoothing_includes}")
-        pairsum_each(shared "PAIRSUM_SHARE(, @)" ${types})
-        pairsum_write(${folder}/shared_${i}_${where}.cpp
-          "// generated\n#include \"sum/share.hpp\"\n${head}namespace pairsum {\n${shared}}\n")
-        list(APPEND sources ${folder}/shared_${i}_${where}.cpp)
-        pairsum_each(body "  enrol_oracle<@>(r);" ${types})
-        pairsum_source(reference_${i}_${where} "#include \"sum/enrol_oracle.hpp\"\n${head}" "${body}")
-      endforeach()
-      pairsum_types(types ${dim} ${precision} "")
+      pairsum_types(types ${dim} ${precision})
+      set(head "#include \"sum/mixed.hpp\"\n${interaction_includes}${smoothing_includes}")
+      pairsum_each(shared "PAIRSUM_SHARE(, @)" ${types})
+      pairsum_write(${folder}/shared_${where}.cpp
+        "// generated\n#include \"sum/share.hpp\"\n${head}namespace pairsum {\n${shared}}\n")
+      list(APPEND sources ${folder}/shared_${where}.cpp)
+      pairsum_each(body "  enrol_oracle<@>(r);" ${types})
+      pairsum_source(reference_${where} "#include \"sum/enrol_oracle.hpp\"\n${head}" "${body}")
       pairsum_each(shared "PAIRSUM_SHARE(extern, @)" ${types})
       pairsum_each(declared "template <> std::vector<tile_kernels<@>> vector_kernels<@>();" ${types})
       string(APPEND shared "${declared}")
       pairsum_write(${folder}/shared_${where}.hpp
         "// generated\n#pragma once\n#include \"sum/share.hpp\"\n#include \"vector/tile_problem.hpp\"\n${interaction_includes}${smoothing_includes}namespace pairsum {\n${shared}}\n")
       pairsum_enrol_vectors(${where} "${types}")
-      set(bodies "")
-      foreach(b IN LISTS BUILT_BACKENDS)
-        pairsum_each(body "  enrol_summation<${b}, @>(r);" ${types})
-        string(APPEND bodies "${body}")
-        if(NOT precision STREQUAL mixed)
-          pairsum_source(${b}_${where}
-            "#include \"backends/${b}.hpp\"\n#include \"sum/enrol.hpp\"\n#include \"shared_${where}.hpp\"\n" "${body}")
-        endif()
-      endforeach()
-      if(precision STREQUAL mixed)  # which few backends take
-        pairsum_source(backends_${where}
-          "${backend_includes}#include \"sum/enrol.hpp\"\n#include \"shared_${where}.hpp\"\n" "${bodies}")
-      endif()
+      pairsum_enrol_backends(${where} "${types}")
     endforeach()
   endforeach()
   pairsum_each(declarations "void @(registry&);" ${functions})

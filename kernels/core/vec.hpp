@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 
 #include "core/value.hpp"
 
@@ -27,11 +28,22 @@ inline T norm2(const vec<D, T>& r) {
 /// Flops of a distance test in D dimensions: x_i - x_j, norm2, the comparison. A fused multiply-add counts 2.
 constexpr int distance_test_flops(int D) { return D + (2 * D - 1) + 1; }
 
-/// A closed axis-parallel cuboid [low, high]; the Omega of the talk. Units: m.
+/// A closed axis-parallel cuboid [low, high]; the Omega of the talk. Units: m. If it is periodic, what leaves through a
+/// face comes back through the opposite one, and a point of a high face is one of the low face.
 template <int D, class R>
 struct box {
   vec<D, R> low, high;
+  bool periodic = false;
 
+  R edge(int d) const { return high[d] - low[d]; }
+  /// Of a periodic box: component d of a point, moved by whole edges into [low, high). A NaN for what is not finite.
+  R wrapped(int d, R x) const {
+    if (x >= low[d] && x < high[d]) return x;
+    R from_low = std::fmod(x - low[d], edge(d));
+    if (from_low < 0) from_low += edge(d);
+    x = low[d] + from_low;
+    return x >= high[d] ? low[d] : x;
+  }
   bool contains(const vec<D, R>& x) const {
     bool inside = true;
     for (int d = 0; d < D; ++d) inside = inside && x[d] >= low[d] && x[d] <= high[d];

@@ -114,6 +114,16 @@ linear_cells<D>::linear_cells(const cell_box<D>& b) {
 }
 
 template <int D>
+linear_cells<D> linear_cells<D>::of_torus(const ivec<D>& period) {
+  linear_cells c;
+  for (int d = 0; d < D; ++d) {
+    c.stride_[d] = static_cast<std::uint32_t>(c.size_);
+    c.size_ *= static_cast<std::size_t>(period[d]);
+  }
+  return c;
+}
+
+template <int D>
 double linear_cells<D>::numbers(const cell_box<D>& b) {
   double n = 1;
   for (int d = 0; d < D; ++d) n *= static_cast<double>(b.edge(d) + 2);

@@ -50,7 +50,7 @@ class box_follower {
 };
 
 /// Numbers the cells of a box, x fastest, with an empty cell around: so the 3^D cells around any cell of the box have
-/// numbers of their own, and no number wraps round an edge.
+/// numbers of their own, and no number wraps round an edge. Or those of a torus, which has nothing around.
 template <int D>
 class linear_cells {
  public:
@@ -58,6 +58,8 @@ class linear_cells {
 
   linear_cells() = default;
   explicit linear_cells(const cell_box<D>& b);
+  /// Of a torus of so many cells along each axis, at most 2^30.
+  static linear_cells of_torus(const ivec<D>& period);
 
   /// How many numbers a box takes, those around it included.
   static double numbers(const cell_box<D>& b);
@@ -70,8 +72,13 @@ class linear_cells {
   template <class R>
   void numbers_of(const particle_set<D, R>& p, std::size_t begin, std::size_t end, const cell_scale<D, R>& scale,
                   std::span<std::uint32_t> out) const;
-  /// Coordinates of a cell of the box.
+  /// Coordinates of a cell of the box, and back.
   ivec<D> place(std::uint32_t number) const;
+  std::uint32_t number(const ivec<D>& at) const {
+    std::uint32_t n = 0;
+    for (int d = 0; d < D; ++d) n += static_cast<std::uint32_t>(at[d] - origin_[d]) * stride_[d];
+    return n;
+  }
 
  private:
   std::array<std::uint32_t, D> stride_{};

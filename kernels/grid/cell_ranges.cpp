@@ -71,6 +71,11 @@ void cell_ranges<D>::make(std::span<const std::uint32_t> keys, std::size_t fluid
   find_cells(keys, fluid, boundary, (std::uint32_t{1} << g.key_bits()) - 1, t);
   if (!renumbered && last_fluid_cells_ == cells_.fluid_cells && cell_keys_ == last_keys_) return;
   last_fluid_cells_ = cells_.fluid_cells;
+  ++cells_.revision;
+  for (int d = 0; d < D; ++d) {
+    cells_.low[d] = static_cast<double>(g.scale().low[d]);
+    cells_.per_metre[d] = static_cast<double>(g.scale().inv_w[d]);
+  }
   g.connect(cell_keys_, cells_, t);
   cells_.total = g.total_cells();
 }

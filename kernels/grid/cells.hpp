@@ -28,7 +28,9 @@ struct cells {
   column<std::uint32_t> neighbours;  ///< cell of the neighbour at code n of fluid cell c: [c * 3^D + n]
   column<std::uint8_t> colour;       ///< parity of the fluid cell's coordinates, one bit per component
   column<ivec<D>> place;             ///< coordinates of the fluid cell, not negative; folded ones on a torus
-  std::int64_t period = 0;           ///< cells of a grid that closes on itself, per component; 0: it does not
+  ivec<D> period{};                  ///< cells of a grid that closes on itself, per component, even; 0: it does not
+  vec<D, double> low, per_metre;     ///< a cell's coordinates are floor((x - low) per_metre), in the working precision
+  std::uint64_t revision = 0;        ///< another one whenever cells or their neighbours are others than before
   std::size_t fluid_cells = 0;
   std::size_t total = 0;  ///< cells of the grid, empty ones included where it has them
 

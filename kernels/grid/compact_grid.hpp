@@ -12,8 +12,8 @@ namespace pairsum {
 /// two cells fold together. Neighbours are found in the sorted list of cells, so neither time nor memory depends on how
 /// large the world is.
 ///
-/// A cell's key is its number in the box around the particles while that has at most 2^30 cells, else its rank in the
-/// list; both ascend alike, so the order of the particles is the same.
+/// A cell's key is its number in the box around the particles, or in the periodic box, while that has at most 2^30
+/// cells, else its rank in the list; both ascend alike, so the order of the particles is the same.
 template <int D, class R>
 class compact_grid final : public grid<D, R> {
  public:
@@ -23,6 +23,7 @@ class compact_grid final : public grid<D, R> {
   compact_grid(const box<D, R>& omega, R H);
 
   bool adapt(const particle_set<D, R>& p, std::size_t moved, const team& t) override;
+  const cell_scale<D, R>& scale() const override { return scale_; }
   /// The cells that hold particles.
   std::size_t total_cells() const override { return total_; }
   int key_bits() const override;
@@ -30,11 +31,12 @@ class compact_grid final : public grid<D, R> {
             std::span<std::uint32_t> out) const override;
   void connect(std::span<const std::uint32_t> cell_keys, cells<D>& c, const team& t) override;
 
-  R cell_width() const { return scale_.w; }
+  R cell_width(int d = 0) const { return scale_.w[d]; }
 
  private:
   void connect_numbers(std::span<const std::uint32_t> cell_keys, cells<D>& c, const team& t);
   void connect_list(std::span<const std::uint32_t> cell_keys, cells<D>& c, const team& t);
+  bool adapt_torus(const particle_set<D, R>& p, std::size_t moved, const team& t);
 
   box<D, R> omega_;
   cell_scale<D, R> scale_;

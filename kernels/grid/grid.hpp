@@ -3,6 +3,7 @@
 #include <span>
 
 #include "core/team.hpp"
+#include "grid/cell_scale.hpp"
 #include "grid/cells.hpp"
 #include "particles/particle_set.hpp"
 
@@ -20,6 +21,8 @@ class grid {
   /// not count. Only the first `moved` may be others than in the last call. Returns whether keys mean other cells than
   /// before: if not, whoever kept its cell keeps its key.
   virtual bool adapt(const particle_set<D, R>&, [[maybe_unused]] std::size_t moved, const team&) { return false; }
+  /// How it turns positions into coordinates of cells.
+  virtual const cell_scale<D, R>& scale() const = 0;
   /// Number of cells, empty ones included, of a grid that has them; known after connect().
   virtual std::size_t total_cells() const = 0;
   /// Keys are below 2^key_bits() <= 2^30.

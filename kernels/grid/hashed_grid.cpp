@@ -1,9 +1,13 @@
 #include "grid/hashed_grid.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
+#include "grid/refusals.hpp"
+#include "grid/torus_table.hpp"
 
 namespace pairsum {
 int check_hash_size(int D, int M) {
@@ -15,7 +19,26 @@ int check_hash_size(int D, int M) {
 
 template <int D, class R>
 hashed_grid<D, R>::hashed_grid(const box<D, R>& omega, R H, int M)
-    : scale_(omega, H), M_(check_hash_size(D, M)), table_(zero_table(std::size_t{1} << (D * M_), "the hashed grid")) {}
+    : scale_(omega, H, cells_round(omega, H, check_hash_size(D, M))),
+      M_(M),
+      table_(zero_table(std::size_t{1} << (D * M_), "the hashed grid")) {}
+
+/// A periodic box must close where the torus does.
+template <int D, class R>
+ivec<D> hashed_grid<D, R>::cells_round(const box<D, R>& omega, R H, int M) {
+  if (!omega.periodic) return {};
+  const ivec<D> n = torus_cells(omega, H, std::int64_t{1} << M);
+  if (std::ranges::find(n, 0) == n.end()) return n;
+  check_periodic(omega, H);
+  int most = 2;
+  const auto fits = [&](int m) { return std::ranges::count(torus_cells(omega, H, std::int64_t{1} << m), 0) == 0; };
+  while (most < M && fits(most + 1)) ++most;
+  throw error("a hashed grid with M = " + std::to_string(M) + " does not go round the periodic box of " +
+              edges_text(omega, H) + " support radii: " + std::to_string(1 << M) +
+              " cells or a multiple must fit along each axis, none narrower than the support radius; " +
+              (most > 2 ? "M from 2 to " + std::to_string(most) + " fit" : "M = 2 fits") +
+              ", or a grid that takes no M");
+}
 
 template <int D, class R>
 void hashed_grid<D, R>::keys(const particle_set<D, R>& p, std::size_t begin, std::size_t end,
@@ -36,29 +59,18 @@ void hashed_grid<D, R>::keys(const particle_set<D, R>& p, std::size_t begin, std
 template <int D, class R>
 void hashed_grid<D, R>::connect(std::span<const std::uint32_t> cell_keys, cells<D>& c, const team& t) {
   table_.set(cell_keys, t);
-  constexpr unsigned stencil = cells<D>::stencil;
   c.resize_fluid();
-  c.period = std::int64_t{1} << M_;
-  const std::uint32_t* const table = table_.data();
   const std::uint32_t mask = (std::uint32_t{1} << M_) - 1;
-  t.for_pieces(c.fluid_cells, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t cell = begin + 1; cell <= end; ++cell) {
-      // Per component the folded coordinates of the left, own and right cell, already shifted into place.
-      std::array<std::array<std::uint32_t, 3>, D> part;
-      ivec<D> place;
-      for (int d = 0; d < D; ++d) {
-        const std::uint32_t own = cell_keys[cell] >> (d * M_) & mask;
-        place[d] = own;
-        for (std::uint32_t o = 0; o < 3; ++o) part[d][o] = ((own + o - 1) & mask) << (d * M_);
-      }
-      c.set_place(cell, place);
-      for (unsigned n = 0; n < stencil; ++n) {
-        std::uint32_t key = 0;
-        for (unsigned d = 0, code = n; d < D; ++d, code /= 3) key |= part[d][code % 3];
-        c.neighbours[cell * stencil + n] = table[key];
-      }
-    }
-  });
+  ivec<D> period;
+  period.fill(std::int64_t{1} << M_);
+  connect_torus<D>(
+      period, table_.data(), c, t,
+      [&](std::size_t cell) {
+        ivec<D> at;
+        for (int d = 0; d < D; ++d) at[d] = cell_keys[cell] >> (d * M_) & mask;
+        return at;
+      },
+      [&](int d, std::int64_t a) { return static_cast<std::uint32_t>(a) << (d * M_); });
 }
 
 template class hashed_grid<1, double>;

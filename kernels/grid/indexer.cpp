@@ -18,6 +18,7 @@ void indexer<D, R>::build(particle_set<D, R>& p, const team& t) {
   lost_ = 0;
   const bool all = !known_ || keys_.size() != p.size();
   known_ = false;  // until this build has come to its end
+  if (omega_.periodic) bring_back(p, all ? p.size() : fluid_, t);
   const bool renumbered = grid_->adapt(p, all ? p.size() : fluid_, t);
   bool boundary_kept = false;
   if (all || renumbered) {
@@ -46,6 +47,19 @@ void indexer<D, R>::build(particle_set<D, R>& p, const team& t) {
   known_ = true;
 }
 
+/// Moves the first `end` particles into [low, high) of a periodic Omega.
+template <int D, class R>
+void indexer<D, R>::bring_back(particle_set<D, R>& p, std::size_t end, const team& t) const {
+  t.for_pieces(end, [&](std::size_t first, std::size_t last, std::size_t) {
+    for (int d = 0; d < D; ++d) {
+      R* const x = p.x[d].data();
+      for (std::size_t i = first; i < last; ++i)
+        if (!(x[i] >= omega_.low[d] && x[i] < omega_.high[d])) [[unlikely]]
+          x[i] = omega_.wrapped(d, x[i]);
+    }
+  });
+}
+
 /// Are particles begin..end in Omega?
 template <int D, class R>
 bool indexer<D, R>::inside(const particle_set<D, R>& p, std::size_t begin, std::size_t end) const {
@@ -56,6 +70,16 @@ bool indexer<D, R>::inside(const particle_set<D, R>& p, std::size_t begin, std::
     for (std::size_t i = begin; i < end; ++i) out |= !(unsigned(x[i] >= low) & unsigned(x[i] <= high));
   }
   return out == 0;
+}
+
+template <int D, class R>
+bool indexer<D, R>::holds(const particle_set<D, R>& p, const team& t) const {
+  if (!known_ || keys_.size() != p.size()) return false;
+  if (omega_.periodic) return true;
+  std::vector<std::uint8_t> in(static_cast<std::size_t>(t.threads()), 1);
+  t.for_pieces(fluid_,
+               [&](std::size_t begin, std::size_t end, std::size_t piece) { in[piece] = inside(p, begin, end); });
+  return std::ranges::count(in, 0) == 0;
 }
 
 /// The keys of a chunk of particles, their kind in the highest bits. Those that are outside Omega become lost.

@@ -22,12 +22,17 @@ class indexer {
  public:
   indexer(const box<D, R>& omega, std::unique_ptr<grid<D, R>> g) : omega_(omega), grid_(std::move(g)) {}
 
-  /// Particles that are outside Omega (or NaN) become `lost`. From build to build the particles stay in their order and
-  /// boundary where it is; else call forget() in between.
+  /// Particles that are outside Omega (or NaN) become `lost`; in a periodic box they come back through the opposite
+  /// face, and only what is not finite is lost. From build to build the particles stay in their order and boundary
+  /// where it is; else call forget() in between.
   void build(particle_set<D, R>& p, const team& t);
 
   /// Other particles come, or boundary was moved: the next build looks at all of them.
   void forget() { known_ = false; }
+
+  /// Are the particles, as far as is known, those of the last build, and is all fluid still in Omega, unless
+  /// that is periodic?
+  bool holds(const particle_set<D, R>& p, const team& t) const;
 
   const cells<D>& view() const { return ranges_.view(); }
   std::size_t fluid() const { return fluid_; }        ///< fluid particles are [0, fluid())
@@ -35,6 +40,7 @@ class indexer {
   std::size_t lost() const { return lost_; }          ///< newly lost in this build
 
  private:
+  void bring_back(particle_set<D, R>& p, std::size_t end, const team& t) const;
   void make_keys(particle_set<D, R>& p, const team& t);
   void find_movers(particle_set<D, R>& p, const team& t);
   void sort(particle_set<D, R>& p, const team& t);

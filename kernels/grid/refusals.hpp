@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -22,6 +23,26 @@ void check_resolution(const box<D, R>& omega, R H, std::string_view grid) {
               std::string(precision_name<R>()) + ", which does not resolve the support radius H of " +
               number_text(static_cast<double>(H)) + " m; make Omega smaller" +
               (std::is_same_v<R, float> ? " or take double" : ""));
+}
+
+/// "12.5 x 8 x 8": Omega's edges in units of H.
+template <int D, class R>
+std::string edges_text(const box<D, R>& omega, R H) {
+  std::string text;
+  for (int d = 0; d < D; ++d)
+    text += (d > 0 ? " x " : "") + number_text(static_cast<double>(omega.edge(d)) / static_cast<double>(H));
+  return text;
+}
+
+/// Throws pairsum::error if fewer than 4 cells go round a periodic box, which has them; else returns how many.
+template <int D, class R>
+ivec<D> check_periodic(const box<D, R>& omega, R H) {
+  if (!omega.periodic) return {};
+  const ivec<D> n = torus_cells(omega, H, 2);
+  if (std::ranges::find(n, 0) != n.end())
+    throw error("the periodic box of " + edges_text(omega, H) +
+                " support radii is too small: 4 cells must fit along each axis, none narrower than the support radius");
+  return n;
 }
 
 }  // namespace pairsum

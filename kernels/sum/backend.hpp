@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/team.hpp"
+#include "sum/conflict_avoidance.hpp"
 #include "sum/probe.hpp"
 #include "sum/problem.hpp"
 
@@ -24,7 +25,10 @@ struct backend_traits {
   granularity loop{};            ///< how it shares out its loops unless the team says; none without such loops
   bool vector = false;           ///< runs on vector units, of which setup::isa chooses
   bool blocks = false;           ///< goes over blocks of cells, which setup::block shapes
+  int cells_per_reach = 1;       ///< how many of the cells that it sorts particles into span the reach
+  double skin = 0;               ///< of its lists, in units of H: they serve until a particle has moved by half of it
   std::array<int, 3> colours{2, 4, 8};  ///< of a symmetric pattern in 1D, 2D and 3D: passes with a barrier between
+  conflict_avoidance conflicts = conflict_avoidance::unsaid;  ///< how threads are kept apart
 
   /// How often a sum goes over the particles in `dim` dimensions.
   constexpr int sweeps(int dim) const { return sweeps_per_colour ? colours[static_cast<std::size_t>(dim - 1)] : 1; }

@@ -49,6 +49,16 @@ void each_block(const cells<D>& c, std::size_t begin, std::size_t end, Emit&& em
   }
 }
 
+/// Coordinates of the base cell of a block with fluid, which may be empty: -1 at the least.
+template <int D>
+ivec<D> base_of(const block<D>& members, const cells<D>& c) {
+  unsigned o = 0;
+  while (members[o] - 1 >= c.fluid_cells) ++o;
+  ivec<D> base = c.place[members[o]];
+  for (int d = 0; d < D; ++d) base[d] -= o >> d & 1;
+  return base;
+}
+
 /// sumF1(B) and the sumF2 of the pattern, as b(d)+1 cell pairs grouped by their lower cell: particle i of cell j meets
 /// all later cells k with j & k == 0 in one go. Touches fluid particles of the block's cells and no others.
 template <class I, class Probe>

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/value.hpp"
+#include "sum/block_cut.hpp"
 
 namespace pairsum {
 namespace {
@@ -34,11 +35,18 @@ std::vector<ivec<D>> places_of(const cells<D>& c, int axes) {
   return distinct(std::move(all));
 }
 
-template <class V>
-std::size_t blocks_of(std::vector<V> places, int width) {
-  for (V& at : places)
-    for (auto& a : at) a /= width;
+template <int D>
+std::size_t blocks_of(std::vector<ivec<D>> places, int width, const cells<D>& c) {
+  for (ivec<D>& at : places)
+    for (int d = 0; d < D; ++d) at[d] = block_cut(width, c.period[d]).block_of(at[d]);
   return distinct(std::move(places)).size();
+}
+
+template <int D>
+bool goes_round(const cells<D>& c, int axes, int width) {
+  bool fits = true;
+  for (int d = D - axes; d < D; ++d) fits = fits && block_cut(width, c.period[d]).fits();
+  return fits;
 }
 
 /// What a sweep has in use at a time: a brick with a rim; of a pencil, by rule of thumb, 4 cells of its length (all of
@@ -61,11 +69,11 @@ block_shape choose_block(const cells<D>& c, const block_limits& limits) {
     const std::size_t enough = limits.blocks << axes;
     std::vector<ivec<D>> places;
     for (const int width : widths) {
-      if (c.period % (2 * width) != 0 || cells_in_use(D, axes, width) > limits.cells) continue;
+      if (!goes_round(c, axes, width) || cells_in_use(D, axes, width) > limits.cells) continue;
       if (axes == D && c.fluid_cells / power(static_cast<std::size_t>(width), D) >= enough)
         return {axes, width};  // even full, so without counting
       if (places.empty()) places = places_of(c, axes);
-      if (blocks_of(places, width) >= enough) return {axes, width};
+      if (blocks_of<D>(places, width, c) >= enough) return {axes, width};
     }
   }
   return {D, widths.back()};

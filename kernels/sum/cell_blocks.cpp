@@ -6,21 +6,14 @@
 #include <unordered_map>
 
 #include "core/error.hpp"
+#include "grid/place_hash.hpp"
+#include "sum/block_cut.hpp"
 
 namespace pairsum {
 namespace {
 
 template <int D>
-struct hash {
-  std::size_t operator()(const ivec<D>& v) const {
-    std::uint64_t h = 0;
-    for (const std::int64_t a : v) h = (h ^ static_cast<std::uint64_t>(a)) * 0x9e3779b97f4a7c15u;
-    return static_cast<std::size_t>(h ^ h >> 32);
-  }
-};
-
-template <int D>
-using numbers = std::unordered_map<ivec<D>, std::uint32_t, hash<D>>;
+using numbers = std::unordered_map<ivec<D>, std::uint32_t, place_hash<D>>;
 
 /// Bits of the coordinates in turns, the first axis' lowest.
 template <int D>
@@ -42,11 +35,12 @@ bool cell_blocks<D>::build(const cells<D>& c) {
   place_.clear();  // until all is done
   if (limits_) shape_ = choose_block(c, *limits_);
   const int axes = std::min(shape_.axes, D);
-  // On a torus of 2^M cells the blocks must be as wide each, and their colours must alternate all the way round.
-  if (!one_pass_ && c.period % (2 * shape_.width) != 0)
-    throw error("blocks of " + std::to_string(shape_.width) + " cells do not go round a torus of " +
-                std::to_string(c.period) + " cells in two colours: take a power of two up to " +
-                std::to_string(c.period / 2) + ", or a grid that takes no M");
+  // On a torus colours must alternate all the way round.
+  for (int d = D - axes; d < D && !one_pass_; ++d)
+    if (!block_cut(shape_.width, c.period[d]).fits())
+      throw error("blocks of " + std::to_string(shape_.width) + " cells do not go round a torus of " +
+                  std::to_string(c.period[d]) + " cells in two colours: they may be up to " +
+                  std::to_string(c.period[d] / 2) + " wide");
   find_strands(c, axes);
   begin_.assign(one_pass_ ? 1 : std::size_t{1} << axes, {});
   std::uint32_t position = 0;
@@ -83,10 +77,14 @@ void cell_blocks<D>::find_strands(const cells<D>& c, int axes) {
     const ivec<D>& at = c.place[cell];
     ivec<D> in_block{}, in_strand{};
     for (int d = 0; d < D; ++d) {
-      const bool cut = d >= D - axes;
-      in_block[d] = cut ? at[d] / shape_.width : 0;
+      const bool is_cut = d >= D - axes;
+      const block_cut cut(shape_.width, one_pass_ ? 0 : c.period[d]);
+      in_block[d] = is_cut ? cut.block_of(at[d]) : 0;
       in_strand[d] = in_block[d];
-      if (bundled && d > 0) in_strand[d] = cut ? in_block[d] * shape_.width + at[d] % shape_.width / 2 : at[d] / 2;
+      if (bundled && d > 0) {
+        const std::int64_t first = is_cut ? cut.first_of(in_block[d]) : 0;
+        in_strand[d] = first + (at[d] - first) / 2;
+      }
     }
     if (cell == 1 || in_strand != last) {
       const auto [entry, is_new] = strand_at.try_emplace(in_strand, static_cast<std::uint32_t>(strands_.size()));

@@ -36,7 +36,8 @@ class cell_blocks {
   }
 
   /// Does nothing, and returns false, if the cells are those of the last call. Throws pairsum::error if blocks of two
-  /// colours do not fit on a grid that closes on itself.
+  /// colours do not fit on a grid that closes on itself; on one that they do not divide some are wider than asked for
+  /// (block_cut.hpp).
   bool build(const cells<D>& c);
 
   /// As built last: it fits the grid and the dimension.
@@ -71,7 +72,7 @@ class cell_blocks {
   std::vector<strand> strands_;
   column<std::uint32_t> order_, strand_of_;
   std::vector<ivec<D>> place_;  ///< of the cells as built last
-  std::int64_t period_ = 0;
+  ivec<D> period_{};
 };
 
 extern template class cell_blocks<1>;

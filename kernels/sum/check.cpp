@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "sum/mixed.hpp"
+#include "sum/omega.hpp"
 
 namespace pairsum {
 namespace {
@@ -51,6 +52,10 @@ void check_world(const setup& s) {
     if (std::max(std::abs(s.omega_low[d]), std::abs(s.omega_high[d])) > range.largest)
       throw error("Omega does not fit into precision " + s.precision + ": component " + std::to_string(d) + " is [" +
                   text(s.omega_low[d]) + ", " + text(s.omega_high[d]) + "]");
+  for (std::size_t d = 0; d < s.omega_low.size() && s.periodic; ++d)
+    if (const double reaches = (s.omega_high[d] - s.omega_low[d]) / s.constants.H; !(reaches > 3.999))
+      throw error("a periodic box must be 4 support radii or more along each axis, component " + std::to_string(d) +
+                  " is " + text(reaches));
 }
 
 void check_input(const particle_table& p, const setup& s) {
@@ -88,12 +93,17 @@ void check_input(const particle_table& p, const setup& s) {
 }
 
 template <class R>
-void check_apart(const particle_table& p, std::string_view interaction) {
+void check_apart(const particle_table& p, std::string_view interaction, const setup& s) {
+  std::vector<std::vector<R>> place;  // a point of a periodic box has one
+  for (std::size_t d = 0; d < p.x.size(); ++d) {
+    place.emplace_back(p.x[d].begin(), p.x[d].end());
+    if (!s.periodic) continue;
+    const box<1, R> axis = make_box_of_axis<R>(s, d);
+    for (R& a : place[d]) a = axis.wrapped(0, a);
+  }
   const auto before = [&](std::uint32_t i, std::uint32_t j) {
-    for (const auto& x : p.x) {
-      const R a = static_cast<R>(x[i]), b = static_cast<R>(x[j]);
-      if (a != b) return a < b;
-    }
+    for (const auto& x : place)
+      if (x[i] != x[j]) return x[i] < x[j];
     return false;
   };
   std::vector<std::uint32_t> boundary;
@@ -108,8 +118,8 @@ void check_apart(const particle_table& p, std::string_view interaction) {
                   ", where the boundary force of " + std::string(interaction) + " is infinite; move one of them");
   }
 }
-template void check_apart<double>(const particle_table&, std::string_view);
-template void check_apart<float>(const particle_table&, std::string_view);
+template void check_apart<double>(const particle_table&, std::string_view, const setup&);
+template void check_apart<float>(const particle_table&, std::string_view, const setup&);
 
 void check_order(const std::vector<std::uint32_t>& order, std::size_t rows) {
   if (order.empty()) return;

@@ -14,7 +14,7 @@ void check_input(const particle_table& p, const setup& s);
 /// Throws pairsum::error if a fluid and a boundary particle lie on the same point in precision R: names both. For
 /// interactions with a force that is infinite there.
 template <class R>
-void check_apart(const particle_table& p, std::string_view interaction);
+void check_apart(const particle_table& p, std::string_view interaction, const setup& s);
 
 /// Throws pairsum::error for an H or an Omega that no particles could make good.
 void check_world(const setup& s);

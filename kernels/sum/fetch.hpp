@@ -55,4 +55,11 @@ PAIRSUM_SAME_CODE void fetch_next_block(const problem<I>& p, const Blocks& block
     for (const std::uint32_t cell : blocks[k + 1]) fetch_columns<true>(p, cell);
 }
 
+/// For a pass over a list of cells: one that is due soon, with its forward neighbours.
+template <class I>
+PAIRSUM_SAME_CODE void fetch_half_stencil(const problem<I>& p, std::size_t cell) {
+  for (unsigned code = pattern::stencil_centre<I::dim>; code < pattern::stencil_cells<I::dim>; ++code)
+    fetch_columns<true>(p, p.cells().neighbour(cell, code));
+}
+
 }  // namespace pairsum

@@ -32,16 +32,46 @@ std::unique_ptr<grid<D, R>> make_grid(const setup& s) {
   throw unknown_name("grid", s.grid, grid_names());
 }
 
+namespace {
+
+template <int D>
+bool fits(const setup& s) {
+  try {
+    make_grid<D, double>(s);
+    make_grid<D, float>(s);
+  } catch (const error&) {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool grid_fits(const setup& s) { return s.dim == 1 ? fits<1>(s) : s.dim == 2 ? fits<2>(s) : fits<3>(s); }
+
+template <class R>
+box<1, R> make_box_of_axis(const setup& s, std::size_t d) {
+  box<1, R> b;
+  b.periodic = s.periodic;
+  const R far = std::numeric_limits<R>::infinity();
+  const double low = s.omega_low.at(d), high = s.omega_high.at(d);
+  b.low[0] = static_cast<R>(low);
+  b.high[0] = static_cast<R>(high);
+  if (static_cast<double>(b.low[0]) > low) b.low[0] = std::nextafter(b.low[0], -far);
+  if (static_cast<double>(b.high[0]) < high) b.high[0] = std::nextafter(b.high[0], far);
+  return b;
+}
+template box<1, double> make_box_of_axis(const setup&, std::size_t);
+template box<1, float> make_box_of_axis(const setup&, std::size_t);
+
 template <int D, class R>
 box<D, R> make_box(const setup& s) {
   box<D, R> b;
-  const R far = std::numeric_limits<R>::infinity();
+  b.periodic = s.periodic;
   for (int d = 0; d < D; ++d) {
-    const double low = s.omega_low.at(d), high = s.omega_high.at(d);
-    b.low[d] = static_cast<R>(low);
-    b.high[d] = static_cast<R>(high);
-    if (static_cast<double>(b.low[d]) > low) b.low[d] = std::nextafter(b.low[d], -far);
-    if (static_cast<double>(b.high[d]) < high) b.high[d] = std::nextafter(b.high[d], far);
+    const box<1, R> axis = make_box_of_axis<R>(s, static_cast<std::size_t>(d));
+    b.low[d] = axis.low[0];
+    b.high[d] = axis.high[0];
   }
   return b;
 }

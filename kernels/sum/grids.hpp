@@ -7,7 +7,7 @@
 #include "core/team.hpp"
 #include "grid/grid.hpp"
 #include "grid/hashed_grid.hpp"
-#include "sum/setup.hpp"
+#include "sum/omega.hpp"
 
 namespace pairsum {
 
@@ -21,9 +21,8 @@ bool grid_takes_M(std::string_view grid);
 template <int D, class R>
 std::unique_ptr<grid<D, R>> make_grid(const setup& s);
 
-/// Omega in the working precision, rounded outwards, so that no particle inside it is outside after rounding.
-template <int D, class R>
-box<D, R> make_box(const setup& s);
+/// Does the grid that `s` names go round the periodic box of `s`, in every precision?
+bool grid_fits(const setup& s);
 
 /// Calls f with a team of one thread of the given kind.
 void with_one_thread(runtime kind, const std::function<void(const team&)>& f);

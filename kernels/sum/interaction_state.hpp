@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "sum/check.hpp"
+#include "sum/omega.hpp"
 #include "sum/problem.hpp"
 #include "sum/rate_names.hpp"
 #include "sum/state.hpp"
@@ -15,7 +16,8 @@ class interaction_columns {
   static constexpr int D = I::dim;
 
  public:
-  explicit interaction_columns(const physics& constants) : formula_(constants), H_(static_cast<R>(constants.H)) {}
+  explicit interaction_columns(const physics& constants, const torus<D, R>& omega = {})
+      : formula_(constants), H_(static_cast<R>(constants.H)), omega_(omega) {}
 
   /// Derives the per-particle terms of boundary [fluid, fluid + boundary) and, unless the backend does, of fluid [0,
   /// fluid).
@@ -49,6 +51,7 @@ class interaction_columns {
   problem<I> view(const particle_set<D, R>& p, const cells<D>& c) {
     problem<I> v{};
     for (int d = 0; d < D; ++d) v.x.column[d] = p.x[d].data();
+    v.x.omega = omega_;
     v.fluid = fluid_.pointers();
     v.boundary = boundary_.pointers();
     v.u = u_.pointers();
@@ -70,6 +73,7 @@ class interaction_columns {
 
   I formula_;
   R H_;
+  torus<D, R> omega_;
   field_columns<particle_of<I>> fluid_;
   field_columns<boundary_particle_of<I>> boundary_;
   field_columns<rates_of<I>> u_;
@@ -85,7 +89,7 @@ class interaction_state : public state<I::dim, typename I::real> {
  public:
   void check(const particle_table& p) const override {
     base::check(p);
-    if constexpr (boundary_is_singular<I>()) check_apart<R>(p, I::name);
+    if constexpr (boundary_is_singular<I>()) check_apart<R>(p, I::name, this->setup_);
   }
 
   using summation::load;
@@ -137,7 +141,7 @@ class interaction_state : public state<I::dim, typename I::real> {
 
  protected:
   // Not inline: each backend would compile its own copies.
-  explicit interaction_state(const setup& s);
+  interaction_state(const setup& s, double skin);
   ~interaction_state() override;
 
   /// Derives what the formula needs of the particles as indexed last.
@@ -151,7 +155,8 @@ class interaction_state : public state<I::dim, typename I::real> {
 };
 
 template <interaction I>
-interaction_state<I>::interaction_state(const setup& s) : base(s), columns_(s.constants) {}
+interaction_state<I>::interaction_state(const setup& s, double skin)
+    : base(s, skin), columns_(s.constants, make_torus<D, R>(s, skin)) {}
 template <interaction I>
 interaction_state<I>::~interaction_state() = default;
 

@@ -23,7 +23,7 @@ struct cell_layer {
 /// How many layers go round a grid that closes on itself along the last axis; 0: it does not.
 template <int D>
 std::int64_t layers_around(const cells<D>& c) {
-  return c.period;
+  return c.period[D - 1];
 }
 
 /// The layer that the half stencil goes to from layer `at`.

@@ -37,6 +37,12 @@ inline constexpr bool is_mixed = !std::is_same_v<pair_real<I>, typename I::real>
 /// A mixed interaction's positions are counted in a power of two of metres, of which so many or more make a reach.
 inline constexpr double mixed_places_per_reach = 1 << 28;
 inline double mixed_unit(double reach) { return std::exp2(std::floor(std::log2(reach / mixed_places_per_reach))); }
+/// Along an axis of a periodic box: as fine, and such that the edge is a multiple of 2^32, so that differences modulo
+/// 2^32 are those through the faces too. Edges of one turn are at least 4 reaches, so that a reach fits in half a turn.
+inline double mixed_unit(double reach, double edge) {
+  constexpr double turn = 4294967296, spare = 1.01;
+  return edge / ((std::floor(spare * edge / reach * (mixed_places_per_reach / turn)) + 1) * turn);
+}
 
 /// The word for I's precision.
 template <class I>

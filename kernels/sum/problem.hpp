@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include "core/torus.hpp"
 #include "grid/cells.hpp"
 #include "interactions/interaction.hpp"
 #include "particles/particle_set.hpp"
@@ -11,11 +12,17 @@ namespace pairsum {
 template <int D, class R>
 struct positions {
   std::array<const R*, D> column;
+  torus<D, R> omega{};  ///< what makes ways of differences if Omega is periodic
 
   [[gnu::always_inline]] vec<D, R> operator[](std::size_t i) const {
     vec<D, R> p;
     for (int d = 0; d < D; ++d) p[d] = column[d][i];
     return p;
+  }
+  /// The same as a point whose differences from others are ways, also through the faces of a periodic box.
+  [[gnu::always_inline]] point<D, R> point_of(std::size_t i) const {
+    const vec<D, R> p = (*this)[i];
+    return {p, omega.seen_from(p)};
   }
 };
 
@@ -43,7 +50,8 @@ struct problem {
   [[gnu::always_inline]] boundary_particle_of<I> boundary_particle(std::size_t b) const {
     return boundary.load(b - fluid_count);
   }
-  [[gnu::always_inline]] vec<dim, real> position(std::size_t i) const { return x[i]; }
+  /// Where particle i is. position(i) - position(j) is the way from j to i, in a periodic box the shortest.
+  [[gnu::always_inline]] point<dim, real> position(std::size_t i) const { return x.point_of(i); }
 };
 
 }  // namespace pairsum

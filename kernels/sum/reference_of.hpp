@@ -6,6 +6,7 @@
 
 #include "sum/costs_of.hpp"
 #include "sum/mixed.hpp"
+#include "sum/omega.hpp"
 #include "sum/rate_names.hpp"
 #include "sum/reference.hpp"
 #include "sum/running_error.hpp"
@@ -27,7 +28,11 @@ class reference_of final : public reference {
   static constexpr int slots = field_count<rates>;
 
  public:
-  explicit reference_of(const setup& s) : formula_(s.constants), H_(static_cast<R>(s.constants.H)) {}
+  explicit reference_of(const setup& s)
+      : formula_(s.constants),
+        H_(static_cast<R>(s.constants.H)),
+        omega_(make_box<D, R>(s)),
+        torus_(make_torus<D, R>(s)) {}
 
   expectation brute_force(const particle_table& table, const team& t, std::vector<std::uint32_t> ids) const override {
     const world w(*this, table, ids.empty());
@@ -39,7 +44,7 @@ class reference_of final : public reference {
 
   expectation cell_search(const particle_table& table, const team& t) const override {
     const world w(*this, table, true);
-    const search s(w, H_);
+    const search s(w, H_, omega_);
     return evaluate(w, w.fluid, t, [&](std::uint32_t i, auto&& meet) { s.around(w, i, meet); });
   }
 
@@ -58,7 +63,10 @@ class reference_of final : public reference {
     world(const reference_of& owner, const particle_table& t, bool derive_all)
         : f(owner), table(t), x(t.size()), kind(t.kind) {
       for (std::uint32_t i = 0; i < t.size(); ++i) {
-        for (int d = 0; d < D; ++d) x[i][d] = static_cast<R>(t.x[d][i]);
+        for (int d = 0; d < D; ++d) {
+          x[i][d] = static_cast<R>(t.x[d][i]);
+          if (f.omega_.periodic) x[i][d] = f.omega_.wrapped(d, x[i][d]);
+        }
         if (kind[i] == particle_kind::fluid) fluid.push_back(i);
       }
       if (!derive_all) return;
@@ -92,12 +100,20 @@ class reference_of final : public reference {
     }
   };
 
-  /// Particles sorted by an own cell number; a row of three cells is one range.
+  /// Particles sorted by an own cell number; a row of three cells is one range, unless it goes through a face.
   struct search {
     std::vector<std::pair<std::array<std::int64_t, D>, std::uint32_t>> sorted;  // (z, y, x), particle
-    double inverse_width;
+    std::array<double, D> inverse_width, low{};
+    std::array<std::int64_t, D> period{};  // (z, y, x), of a periodic box
 
-    search(const world& w, R H) : inverse_width(1 / (1.01 * static_cast<double>(H))) {
+    search(const world& w, R H, const box<D, R>& omega) {
+      inverse_width.fill(1 / (1.01 * static_cast<double>(H)));
+      for (int d = 0; d < D && omega.periodic; ++d) {
+        const double edge = omega.edge(d), lost = 4 * edge * static_cast<double>(std::numeric_limits<R>::epsilon());
+        low[d] = omega.low[d];
+        period[D - 1 - d] = static_cast<std::int64_t>(edge / (1.01 * static_cast<double>(H) + lost));
+        inverse_width[d] = static_cast<double>(period[D - 1 - d]) / edge;
+      }
       sorted.reserve(w.x.size());
       for (std::uint32_t i = 0; i < w.x.size(); ++i)
         if (w.kind[i] != particle_kind::lost) sorted.emplace_back(cell(w.x[i]), i);
@@ -106,12 +122,33 @@ class reference_of final : public reference {
     std::array<std::int64_t, D> cell(const vec<D, R>& x) const {
       std::array<std::int64_t, D> c;
       for (int d = 0; d < D; ++d)
-        c[D - 1 - d] = static_cast<std::int64_t>(std::floor(static_cast<double>(x[d]) * inverse_width));
+        c[D - 1 - d] = static_cast<std::int64_t>(std::floor((static_cast<double>(x[d]) - low[d]) * inverse_width[d]));
+      for (int d = 0; d < D && period[0] > 0; ++d) c[d] = std::clamp<std::int64_t>(c[d], 0, period[d] - 1);
       return c;
+    }
+    /// The cells around `own`, each once: there may be fewer than three along a periodic axis.
+    template <class Meet>
+    void around_in_torus(const std::array<std::int64_t, D>& own, Meet&& meet) const {
+      std::array<std::vector<std::int64_t>, D> axis;
+      for (int d = 0; d < D; ++d) {
+        for (std::int64_t step = -1; step <= 1; ++step) axis[d].push_back((own[d] + step + period[d]) % period[d]);
+        std::ranges::sort(axis[d]);
+        axis[d].erase(std::unique(axis[d].begin(), axis[d].end()), axis[d].end());
+      }
+      std::size_t cells = 1;
+      for (const auto& a : axis) cells *= a.size();
+      for (std::size_t number = 0; number < cells; ++number) {
+        std::array<std::int64_t, D> at;
+        std::size_t code = number;
+        for (int d = 0; d < D; code /= axis[d].size(), ++d) at[d] = axis[d][code % axis[d].size()];
+        auto k = std::ranges::lower_bound(sorted, at, {}, [](const auto& s) { return s.first; });
+        for (; k != sorted.end() && k->first == at; ++k) meet(k->second);
+      }
     }
     template <class Meet>
     void around(const world& w, std::uint32_t i, Meet&& meet) const {
       const auto own = cell(w.x[i]);
+      if (period[0] > 0) return around_in_torus(own, meet);
       std::size_t rows = 1;
       for (int d = 1; d < D; ++d) rows *= 3;
       for (std::size_t row = 0; row < rows; ++row) {
@@ -174,7 +211,8 @@ class reference_of final : public reference {
         const auto a_i = w.particle(i);
         candidates(i, [&](std::uint32_t j) {
           if (j == i || w.kind[j] == particle_kind::lost) return;
-          const vec<D, R> r = w.x[i] - w.x[j];
+          vec<D, R> r = w.x[i] - w.x[j];
+          if (torus_.periodic) r = torus_.shortest(r);
           const R r2 = norm2<D, R>(r);
           if (!(r2 < H_ * H_)) return;
           if (w.kind[j] == particle_kind::boundary) {
@@ -230,10 +268,11 @@ class reference_of final : public reference {
   }
 
   /// How far x_i - x_j of a backend may be from ours. A mixed one rounds either position to a whole number, and their
-  /// difference to float.
+  /// difference to float; in a periodic box also the unit they are counted in, and once more.
   double error_of_component(R r) const {
     if constexpr (is_mixed<I>)
-      return 1.01 * tracked::rounded(r) + static_cast<double>(H_) * (1 / mixed_places_per_reach);
+      return (torus_.periodic ? 3.03 : 1.01) * tracked::rounded(r) +
+             static_cast<double>(H_) * (1 / mixed_places_per_reach);
     else
       return tracked::rounded(r);
   }
@@ -255,6 +294,8 @@ class reference_of final : public reference {
 
   I formula_;
   R H_;
+  box<D, R> omega_;
+  torus<D, R> torus_;
 };
 
 }  // namespace pairsum

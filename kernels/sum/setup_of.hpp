@@ -10,6 +10,7 @@ inline setup setup_of(const initial_condition& c) {
   s.dim = c.particles.dim;
   s.omega_low = c.omega_low;
   s.omega_high = c.omega_high;
+  s.periodic = c.periodic;
   s.constants = {c.H, c.eos};
   return s;
 }

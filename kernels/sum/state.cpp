@@ -6,8 +6,16 @@
 
 namespace pairsum {
 
+namespace {
+setup with_skin(setup s, double skin) {
+  s.constants.H *= 1 + skin;
+  return s;
+}
+}  // namespace
+
 template <int D, class R>
-state<D, R>::state(const setup& s) : setup_((check_world(s), s)), index_(make_box<D, R>(s), make_grid<D, R>(s)) {}
+state<D, R>::state(const setup& s, double skin)
+    : setup_((check_world(s), s)), index_(make_box<D, R>(s), make_grid<D, R>(with_skin(s, skin))) {}
 
 template <int D, class R>
 state<D, R>::~state() = default;

@@ -35,7 +35,8 @@ class state : public summation {
   std::size_t fluid_count() const { return index_.fluid(); }
 
  protected:
-  explicit state(const setup& s);
+  /// skin: what cells are wider for lists that are kept, in units of H.
+  explicit state(const setup& s, double skin = 0);
   ~state() override;
 
   setup setup_;

@@ -17,7 +17,7 @@ void configure(W& workspace, const setup& s) {
 template <class B, int D, class R>
 work_counts count_work_of(const particle_set<D, R>& p, const indexer<D, R>& index, const setup& s) {
   using I = count<D, R>;
-  interaction_columns<I> columns(s.constants);
+  interaction_columns<I> columns(s.constants, make_torus<D, R>(s));
   const team alone;
   columns.derive(p, index.fluid(), index.boundary(), alone);
   columns.zero_rates(alone);
@@ -44,10 +44,19 @@ class summation_of final : public interaction_state<I> {
   static_assert(B::traits.evaluations_per_pair > 0, "the backend's traits lack evaluations_per_pair");
 
  public:
-  explicit summation_of(const setup& s) : base(s) { configure(workspace_, s); }
+  explicit summation_of(const setup& s) : base(s, B::traits.skin) { configure(workspace_, s); }
 
   const backend_traits& traits() const override { return B::traits; }
 
+  /// For a workspace that keeps lists: nothing, as long as they serve.
+  void index(const team& t) override {
+    if constexpr (requires { workspace_.outlasts(view_, t); }) {
+      const bool same = view_.grid_cells != nullptr && this->index_.holds(this->particles_, t);
+      if (same && workspace_.outlasts(view_, t)) return;
+      workspace_.expire();
+    }
+    base::index(t);
+  }
   void prepare(const team& t) override {
     no_probe unobserved;
     bool with_fluid = true;
@@ -81,6 +90,9 @@ class summation_of final : public interaction_state<I> {
     else
       return 1;
   }
+
+  /// The backend's own, for tests.
+  const workspace& inner() const { return workspace_; }
 
   work_counts count_work() override { return count_work_of<B>(this->particles_, this->index_, this->setup_); }
 

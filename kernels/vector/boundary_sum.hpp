@@ -37,6 +37,8 @@ HWY_INLINE void add_boundary_lanes(const tile_problem<I>& t, std::uint32_t i, co
     for (int c = 0; c < D; ++c) {
       const real x_i = is_mixed<I> ? p.x.column[c][i] : static_cast<real>(row[c]);
       r[c] = T(x_i) - T(hn::GatherIndex(d, p.x.column[c], place));
+      if (t.periodic) [[unlikely]]
+        r[c] = shortest_lanes(r[c].v, p.x.omega.edge[c]);
     }
     typename I::template boundary_particle<T> wall;
     each_scalar(wall,

@@ -57,6 +57,14 @@ HWY_INLINE Mask decide_near_ties(const tile_problem<I>& t, Mask in, V r2, typena
   return decide_lanes(t, in, close, reach2, i, other, d);
 }
 
+/// Components of ways, an edge shorter where they go through a face of a periodic box: as torus::shortest() rounds.
+template <class V, class R>
+HWY_INLINE V shortest_lanes(V r, R edge) {
+  const hn::DFromV<V> d;
+  const auto through = hn::Gt(hn::Abs(r), hn::Set(d, edge / 2));
+  return hn::Sub(r, hn::IfThenElseZero(through, hn::CopySignToAbs(hn::Set(d, edge), r)));
+}
+
 /// The hits of a few particles i, each list filled up to whole vectors with spare rows, and their sums:
 ///
 ///   for i, for vectors of its hits j:
@@ -144,7 +152,7 @@ class alignas(4096) hit_batch {
       for (int c = 0; c < D; ++c) {
         const auto from = hn::BitCast(whole, value[c]);
         const auto apart = hn::Sub(hn::BitCast(whole, hn::Set(d, row[c])), from);
-        p.r[c] = hn::Mul(hn::ConvertTo(d, apart), hn::Set(d, t_.mixed_unit));
+        p.r[c] = hn::Mul(hn::ConvertTo(d, apart), hn::Set(d, t_.mixed_unit[c]));
       }
       const auto there = hn::BitCast(whole, hn::LoadU(index_tag(), hits));
       const auto is = hn::Lt(there, hn::Set(whole, static_cast<std::int32_t>(t_.p->fluid_count)));
@@ -152,6 +160,8 @@ class alignas(4096) hit_batch {
           hn::IfThenElse(hn::RebindMask(d, is), norm2<D, T>(p.r).v, hn::Set(d, std::numeric_limits<real>::infinity()));
     } else {
       for (int c = 0; c < D; ++c) p.r[c] = T(hn::Set(d, row[c])) - T(value[c]);
+      if (t_.periodic) [[unlikely]]
+        for (int c = 0; c < D; ++c) p.r[c] = shortest_lanes(p.r[c].v, t_.p->x.omega.edge[c]);
       p.r2 = norm2<D, T>(p.r);
     }
     p.distance = square_root(p.r2);

@@ -32,6 +32,17 @@ class alignas(4096) nearby {
     limit_ = (reach * reach + rounding + excess) * unit * unit;
     n_ = 0;
   }
+  /// The same in a periodic box, where a place takes place_size[c] units. Candidates are seen on the shortest way from
+  /// the origin, which is that of whoever is near only as far as half an edge.
+  void clear(const places& place, std::uint32_t i, float reach, float excess, const std::array<float, D>& place_size,
+             const std::array<float, D>& half_edge) {
+    clear(place, i, reach, excess);
+    sized_ = true;
+    for (int c = 0; c < D; ++c) {
+      size_of_place_[c] = place_size[c];
+      most_[c] = std::min(near * unit, half_edge[c] - 1.01f * unit);
+    }
+  }
   std::size_t size() const { return n_; }
   bool full() const { return n_ == capacity; }
 
@@ -43,7 +54,8 @@ class alignas(4096) nearby {
       const std::uint32_t from_origin =
           static_cast<std::uint32_t>(place[c][i]) - static_cast<std::uint32_t>(origin_[c]);
       at[c] = static_cast<float>(static_cast<std::int32_t>(from_origin));
-      in = in && std::abs(at[c]) < near * unit;
+      if (sized_) at[c] *= size_of_place_[c];
+      in = in && std::abs(at[c]) < (sized_ ? most_[c] : near * unit);
     }
     return in;
   }
@@ -136,7 +148,8 @@ class alignas(4096) nearby {
     const lane_tag<std::uint32_t> du;
     auto square = hn::Zero(d);
     for (int c = 0; c < D; ++c) {
-      const auto x = hn::ConvertTo(d, hn::Sub(hn::LoadU(di, place[c] + j), hn::Set(di, origin_[c])));
+      auto x = hn::ConvertTo(d, hn::Sub(hn::LoadU(di, place[c] + j), hn::Set(di, origin_[c])));
+      if (sized_) x = hn::Mul(x, hn::Set(d, size_of_place_[c]));
       hn::StoreU(x, d, x_[c] + slot);
       square = hn::MulAdd(x, x, square);
     }
@@ -160,6 +173,8 @@ class alignas(4096) nearby {
   HWY_ALIGN float square_[room];
   HWY_ALIGN std::uint32_t index_[room];
   std::int32_t origin_[D];
+  bool sized_ = false;  ///< in a periodic box
+  float size_of_place_[D], most_[D];
   float limit_ = 0;
   std::size_t n_ = 0;
 };

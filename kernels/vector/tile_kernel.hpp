@@ -99,7 +99,10 @@ class tile_kernel {
   /// Makes `near` hold candidates around particle i, from the cursor on, as many as it takes; returns the cursor behind
   /// them.
   static HWY_INLINE cursor copy(const tiles& t, std::uint32_t i, float reach, cursor c, near_list& near) {
-    near.clear(t.place, i, reach, t.excess);
+    if (t.periodic)
+      near.clear(t.place, i, reach, t.excess, t.place_size, t.half_edge);
+    else
+      near.clear(t.place, i, reach, t.excess);
     while (!c.done() && !near.full()) {
       near.take(t.place, c.rest);
       if (c.rest.begin == c.rest.end && ++c.at != c.end) c.rest = *c.at;

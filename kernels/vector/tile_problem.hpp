@@ -35,7 +35,7 @@ inline constexpr bool takes_lanes =
     made_of<rates_of<I>, typename I::real>();
 
 /// Places are whole numbers modulo 2^32, so many to a reach: differences of particles less than 2048 reaches apart are
-/// exact.
+/// exact. In a periodic box 2^32 of them make its edge, so that differences go through its faces where that is shorter.
 inline constexpr std::int32_t places_per_reach = 1 << 20;
 /// Columns of places can be read so far behind their end.
 inline constexpr std::size_t place_room = 32;
@@ -60,9 +60,12 @@ struct tile_problem {
 
   const problem<I>* p;
   std::array<const std::int32_t*, I::dim> place;  ///< [particle]; rounded to the nearest
-  float excess;      ///< how far, in units of the reach squared, rounding to places can move |x_i - x_j|^2
-  std::byte* rows;   ///< [particle][stride], on 64-byte boundaries
-  value mixed_unit;  ///< m: what positions of mixed rows are counted in
+  float excess;  ///< how far, in units of the reach squared, rounding to places can move |x_i - x_j|^2
+  bool periodic;
+  std::array<float, I::dim> place_size;  ///< of a periodic box: units of 2^-20 reaches that a place takes, per axis
+  std::array<float, I::dim> half_edge;   ///< half its edges in such units
+  std::byte* rows;                       ///< [particle][stride], on 64-byte boundaries
+  std::array<value, I::dim> mixed_unit;  ///< m: what positions of mixed rows are counted in, per axis
   /// Decides r^2 < reach2 for particles i and j as scalar code does; nullptr if lanes round alike. One of the two may
   /// fuse products and sums (see fused()) and the other not, or be more precise (mixed), which matters for pairs within
   /// rounding of the reach: those with |r^2 - reach2| < tie * reach2, which is all of

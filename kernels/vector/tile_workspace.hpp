@@ -9,7 +9,7 @@
 #include "core/isa.hpp"
 #include "core/names.hpp"
 #include "core/team.hpp"
-#include "sum/cell_blocks.hpp"
+#include "sum/block_setup.hpp"
 #include "sum/gather_cell.hpp"
 #include "sum/half_stencil.hpp"
 #include "sum/setup.hpp"
@@ -29,8 +29,10 @@ class tile_workspace {
   static constexpr std::size_t most_in_float = 0x7fffffff;  ///< numbers of particles are lanes as wide as values
   static constexpr std::size_t row_bytes = tiles::stride * sizeof(value);
   /// In a world narrower than this, in reaches, what the test lets pass is near. In a wider one places coincide, so all
-  /// pairs of whole-number rows (mixed) are decided one by one.
+  /// pairs of whole-number rows (mixed) are decided one by one. (In a periodic box only those of a particle do, but
+  /// they may be coarse.)
   static constexpr double unfolded = 2000;
+  static constexpr double turn = 4294967296;  ///< of whole numbers modulo 2^32
 
  public:
   /// Does this workspace derive what fluid particles bring to a pair?
@@ -38,15 +40,16 @@ class tile_workspace {
 
   /// Throws pairsum::error for an isa or a block that is not to be had.
   void configure(const setup& s) {
-    check_block(s.block);
-    if (s.block == "auto")
-      blocks_.shape(limits_of(s.cache_bytes, bytes_per_cell(s.dim), s.cores), !symmetric);
-    else
-      blocks_.shape(block_shape::parse(s.block), !symmetric);
+    shape_blocks(blocks_, s, bytes_per_cell(s.dim), !symmetric);
     check_isa(s.isa);
     excess_ = excess_in(s);
-    tie_ = !is_mixed<I> || widest(s) < unfolded ? 16 * std::numeric_limits<value>::epsilon()
-                                                : std::numeric_limits<value>::infinity();
+    for (int d = 0; d < I::dim; ++d) {
+      const double edge = s.omega_high[d] - s.omega_low[d];
+      mixed_unit_[d] = s.periodic ? mixed_unit(s.constants.H, edge) : mixed_unit(s.constants.H);
+    }
+    const bool all_are_near = s.periodic ? excess_ < 8 : widest(s) < unfolded;
+    tie_ = !is_mixed<I> || all_are_near ? 16 * std::numeric_limits<value>::epsilon()
+                                        : std::numeric_limits<value>::infinity();
     if constexpr (takes_lanes<I>) {
       const auto kernels = vector_kernels<I>();
       for (const tile_kernels<I>& k : kernels)
@@ -74,7 +77,7 @@ class tile_workspace {
       rows_.resize((p.fluid_count + spare) * row_bytes);
       const tiles view = view_of(p);
       t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) fill(view, i);
+        for (std::size_t i = begin; i < end; ++i) fill(view, i, mixed_unit_);
       });
       for (auto& column : place_) column.resize(p.count + place_room);
       t.for_pieces(p.count, [&](std::size_t begin, std::size_t end, std::size_t) { fill_places(p, begin, end); });
@@ -158,21 +161,27 @@ class tile_workspace {
     view.p = &p;
     for (int d = 0; d < I::dim; ++d) view.place[d] = place_[d].data();
     view.excess = excess_;
+    view.periodic = p.x.omega.periodic;
+    for (int d = 0; d < I::dim && view.periodic; ++d) {
+      const double edge = p.x.omega.edge[d] / reach(p) * places_per_reach;
+      view.place_size[d] = static_cast<float>(edge / turn);
+      view.half_edge[d] = static_cast<float>(edge / 2);
+    }
     view.rows = rows_.data();
-    view.mixed_unit = static_cast<value>(mixed_unit(reach(p)));
+    for (int d = 0; d < I::dim; ++d) view.mixed_unit[d] = static_cast<value>(mixed_unit_[d]);
     view.in_reach = rounds_alike_ ? nullptr : &in_reach;
     view.tie = tie_;
     return view;
   }
 
-  static void fill(const tiles& view, std::size_t i) {
+  static void fill(const tiles& view, std::size_t i, const std::array<double, I::dim>& unit) {
     const problem<I>& p = *view.p;
     const auto& set = *p.particles;
     const particle_state<I::dim, real> state{set.position(i), set.velocity(i), set.rho[i], set.m[i], set.id[i]};
     value* const row = view.row(i);
     for (int d = 0; d < I::dim; ++d) {
       if constexpr (is_mixed<I>)
-        row[d] = std::bit_cast<value>(modulo_2_32(state.x[d] / static_cast<double>(view.mixed_unit)));
+        row[d] = std::bit_cast<value>(modulo_2_32((state.x[d] - (view.periodic ? p.x.column[d][0] : 0)) / unit[d]));
       else
         row[d] = state.x[d];
     }
@@ -188,26 +197,26 @@ class tile_workspace {
   }
 
   /// Rounding to places moves a component of x_i - x_j by up to one of them, and by what doubles cannot hold of it in a
-  /// world as wide as Omega.
+  /// world as wide as Omega. In a periodic box places are as fine as its edge allows, sizes of places are rounded, and
+  /// so are, in the working precision, differences as large as the edge.
   static float excess_in(const setup& s) {
-    const double component = 1.0 / places_per_reach + widest(s) * 0x1p-51;  // in units of the reach
+    double component = 1.0 / places_per_reach + widest(s) * 0x1p-51;  // in units of the reach
+    if (s.periodic) component += widest(s) * (1.01 / turn + std::numeric_limits<real>::epsilon());
     return static_cast<float>(2 * std::sqrt(3.0) * component + 3 * component * component);
   }
 
   static double reach(const problem<I>& p) { return std::sqrt(static_cast<double>(p.reach2)); }
-  /// From the first particle, so that a world far from 0 keeps its digits.
+  /// From the first particle, so that a world far from 0 keeps its digits. The edge of a periodic box is 2^32.
   void fill_places(const problem<I>& p, std::size_t begin, std::size_t end) {
     if (begin == end) return;
-    const double scale = places_per_reach / reach(p);
     for (int d = 0; d < I::dim; ++d) {
       const real* const x = p.x.column[d];
-      const double first = x[0];
+      const double first = x[0], scale = p.x.omega.periodic ? turn / p.x.omega.edge[d] : places_per_reach / reach(p);
       for (std::size_t i = begin; i < end; ++i) place_[d][i] = modulo_2_32((static_cast<double>(x[i]) - first) * scale);
     }
   }
   /// x, rounded to a whole number, modulo 2^32, whatever its size: no rounding but the last.
   static std::int32_t modulo_2_32(double x) {
-    constexpr double turn = 4294967296;
     const double rest = std::floor(x - std::floor(x * (1 / turn) + 0.5) * turn + 0.5);  // in [-2^31, 2^31]
     // Where doubles are coarser than 2^32 places, any number will do that is the same for the same x.
     return static_cast<std::int32_t>(
@@ -230,6 +239,7 @@ class tile_workspace {
   cell_blocks<I::dim> blocks_;
   tile_function<I> kernel_ = nullptr;
   std::size_t lanes_ = 1;
+  std::array<double, I::dim> mixed_unit_{};
   float excess_ = 0;
   value tie_ = 0;
   bool rounds_alike_ = true;

@@ -25,11 +25,13 @@ struct indexed_scene {
     index.build(particles, t);
   }
 
-  /// Cell coordinates of particle i from its position alone, folded where the grid folds.
-  std::array<int, 3> cell_of(std::size_t i) const {
+  /// Cell coordinates of particle i from its position alone, folded where the grid folds; of cells cut in `parts` along
+  /// each axis.
+  std::array<int, 3> cell_of(std::size_t i, int parts = 1) const {
     std::array<int, 3> c;
     for (int d = 0; d < 3; ++d)
-      c[d] = static_cast<int>(std::floor((particles.x[d][i] - omega.low[d]) / cell_width)) & mask;
+      c[d] = static_cast<int>(std::floor((particles.x[d][i] - omega.low[d]) / cell_width * parts)) &
+             (mask < 0 ? -1 : (mask + 1) * parts - 1);
     return c;
   }
 };

@@ -16,6 +16,7 @@ scene make_scene(std::string_view name, double dx, std::string_view state, std::
   scene s;
   s.world.omega_low = made.omega_low;
   s.world.omega_high = made.omega_high;
+  s.world.periodic = made.periodic;
   s.world.constants = {made.H, made.eos};
   s.particles = std::move(made.particles);
   return s;

@@ -94,7 +94,7 @@ TEST(block_choice, goes_round_a_torus) {
   auto c = every_cell<3>({16, 16, 16});
   EXPECT_EQ(chosen(c, any, 0), "pencil:16");
   for (const int period : {4, 8, 16}) {
-    c.period = period;
+    c.period.fill(period);
     EXPECT_EQ(chosen(c, any, 0), "pencil:" + std::to_string(period / 2));
   }
 }

@@ -154,5 +154,24 @@ TEST(lattice, fills_the_unit_cube_in_every_dimension) {
   }
 }
 
+TEST(periodic_lattice, is_the_lattice_in_a_periodic_box) {
+  for (const int dim : {1, 2, 3}) {
+    const auto c = made("periodic_lattice", 0.0625, "rest", 1, dim), open = made("lattice", 0.0625, "rest", 1, dim);
+    EXPECT_EQ(c.particles.x, open.particles.x);
+    EXPECT_TRUE(c.periodic);
+    EXPECT_FALSE(open.periodic);
+    EXPECT_EQ(c.H, 0.125);
+    const auto moved = made("periodic_lattice", 0.0625, "perturbed", 1, dim);
+    for (const auto& x : moved.particles.x)
+      for (const double a : x) ASSERT_TRUE(a >= 0 && a < 1);
+  }
+  EXPECT_TRUE(says(error_of([] { made("periodic_lattice", 0.13); }), {"periodic_lattice", "0.25 m", "is 0.26"}));
+  initial_condition c = made("periodic_lattice", 0.125);
+  for (auto& x : c.particles.x) std::ranges::fill(x, 0.01);
+  perturb(c, 0.125, 1);  // who leaves comes back
+  for (const auto& x : c.particles.x)
+    for (const double a : x) ASSERT_TRUE(a >= 0.9 && a < 1) << a;
+}
+
 }  // namespace
 }  // namespace pairsum

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "indexed_scene.hpp"
+#include "sum/block_cut.hpp"
 #include "sum/cell_blocks.hpp"
 
 // Blocks of cells: each cell once, and blocks of a colour write different particles, whatever the schedule.
@@ -14,8 +15,11 @@ using namespace test_kit;
 struct shaped_grid {
   grid_choice grid;
   block_shape shape;
+  bool periodic = false;
 };
-std::ostream& operator<<(std::ostream& o, const shaped_grid& s) { return o << s.grid << " " << s.shape.word(); }
+std::ostream& operator<<(std::ostream& o, const shaped_grid& s) {
+  return o << s.grid << " " << s.shape.word() << (s.periodic ? " periodic" : "");
+}
 
 std::vector<shaped_grid> every_shape() {
   std::vector<shaped_grid> all;
@@ -25,12 +29,20 @@ std::vector<shaped_grid> every_shape() {
         if (grid.M == 0 || (1 << grid.M) % (2 * width) == 0)
           for (const cell_order order : {cell_order::rows, cell_order::bundles, cell_order::morton})
             if (order != cell_order::morton || width == 4) all.push_back({grid, {axes, width, order}});
+  for (const grid_choice& grid : every_grid({2, 3}))  // a box of 10 cells, or 8 with an M
+    for (const int axes : {1, 2, 3})
+      for (const int width : {2, 3, 4, 5})
+        if (2 * width <= (grid.M > 0 ? 1 << grid.M : 10))
+          for (const cell_order order : {cell_order::rows, cell_order::bundles})
+            all.push_back({grid, {axes, width, order}, true});
   return all;
 }
 
 class cell_blocks_test : public testing::TestWithParam<shaped_grid> {
  protected:
-  indexed_scene s{make_scene("dam_break", 0.03, "perturbed"), GetParam().grid};
+  indexed_scene s{GetParam().periodic ? make_scene("periodic_lattice", 0.049, "perturbed")
+                                      : make_scene("dam_break", 0.03, "perturbed"),
+                  GetParam().grid};
   const cells<3>& c = s.index.view();
   cell_blocks<3> blocks;
   void SetUp() override {
@@ -80,6 +92,26 @@ TEST_P(cell_blocks_test, merged_colours_are_detected) {
     if (blocks.size(colour) > 0) EXPECT_GT(conflicts({0, colour}), 0u) << colour;
 }
 
+TEST(block_cut, goes_round_in_two_colours) {
+  for (const std::int64_t period : {4, 6, 8, 10, 14, 50, 64})
+    for (const std::int64_t width : {2, 3, 4, 5, 8, 16}) {
+      const block_cut cut(width, period);
+      ASSERT_EQ(cut.fits(), 2 * width <= period);
+      if (!cut.fits()) continue;
+      const std::int64_t blocks = cut.block_of(period - 1) + 1;
+      EXPECT_EQ(blocks % 2, 0);
+      EXPECT_EQ(cut.block_of(0), 0);
+      for (std::int64_t b = 0; b < blocks; ++b) {
+        const std::int64_t next = b + 1 < blocks ? cut.first_of(b + 1) : period;
+        EXPECT_GE(next - cut.first_of(b), width);
+        EXPECT_LT(next - cut.first_of(b), 2 * width + 1);
+        for (std::int64_t cell = cut.first_of(b); cell < next; ++cell) EXPECT_EQ(cut.block_of(cell), b);
+      }
+      for (std::int64_t cell = 0; cell < period && period % (2 * width) == 0; ++cell)
+        EXPECT_EQ(cut.block_of(cell), cell / width);
+    }
+}
+
 TEST(cell_blocks, one_pass_has_them_all) {
   const indexed_scene s(make_scene("dam_break", 0.05, "rest"), 3);
   cell_blocks<3> blocks;
@@ -94,11 +126,9 @@ TEST(cell_blocks, one_pass_has_them_all) {
 TEST(cell_blocks, what_does_not_go_round_a_torus_is_refused_or_not_chosen) {
   const indexed_scene s(make_scene("dam_break", 0.08, "rest"), 3);
   cell_blocks<3> blocks;
-  blocks.shape(block_shape{1, 3});
-  EXPECT_EQ(
-      error_of([&] { blocks.build(s.index.view()); }),
-      "blocks of 3 cells do not go round a torus of 8 cells in two colours: take a power of two up to 4, or a grid "
-      "that takes no M");
+  blocks.shape(block_shape{1, 5});
+  EXPECT_EQ(error_of([&] { blocks.build(s.index.view()); }),
+            "blocks of 5 cells do not go round a torus of 8 cells in two colours: they may be up to 4 wide");
   blocks.shape(block_limits{1 << 20, 1});
   EXPECT_EQ(error_of([&] { blocks.build(s.index.view()); }), "");
 }
@@ -151,7 +181,10 @@ TEST(cell_blocks, follow_cells_that_move) {
   c.place[2] = ivec<3>{0, 0, 1};
   blocks.build(c);
   EXPECT_EQ(blocks.size(0), 1u);
-  c.period = 6;  // 3 blocks go round, which two colours cannot
+  c.period.fill(6);  // 3 blocks would go round, which two colours cannot: they are wider
+  blocks.build(c);
+  EXPECT_EQ(blocks.size(0), 1u);
+  blocks.shape(block_shape{1, 4});
   EXPECT_TRUE(says(error_of([&] { blocks.build(c); }), {"do not go round a torus of 6 cells"}));
   blocks.shape(block_shape{1, 2}, true);
   blocks.build(c);

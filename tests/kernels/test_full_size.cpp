@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "scene.hpp"
 
@@ -43,14 +45,20 @@ struct expected_work {
   std::uint64_t symmetric, naive;
 };
 
+/// Every backend on M=7, the talk's; on the other grids one of those alike in how they go through cells. What each
+/// counts on each grid is tested on small cases (work_counts_test): here numbers are larger, and nothing else is new.
 TEST(full_size, every_backend_finds_the_known_numbers_of_pairs) {
   const scene& s = full_size("rest");
   for (const expected_work& e : {expected_work{6, 182508938, 284698438}, expected_work{7, 135107738, 237297238},
                                  expected_work{9, 111877100, 214066600}, expected_work{dense, 111877100, 214066600},
                                  expected_work{compact, 111877100, 214066600}}) {
+    std::set<std::array<bool, 5>> counted;
     for (const std::string& name : backend_names()) {
       SCOPED_TRACE(name + " " + testing::PrintToString(e.grid));
       const auto sum = registry::instance().make_summation(with(s.world, name, e.grid));
+      const backend_traits& t = sum->traits();
+      const bool is_new = counted.insert({t.symmetric, t.vector, t.blocks, t.sweeps_per_colour, t.keeps_pairs}).second;
+      if (!is_new && e.grid.M != 7) continue;
       workers w(sum->traits().threads, 2);
       sum->load(s.particles, {});
       sum->index(w.get());

@@ -22,6 +22,34 @@ TEST(registry, lists_the_algorithms_of_the_talk_each_once) {
     EXPECT_TRUE(all.contains(name)) << name;
 }
 
+/// What is wrong with how a backend says that it keeps threads apart; empty if nothing.
+std::string fault_of_conflicts(const backend_traits& t) {
+  const bool serial = t.conflicts == conflict_avoidance::serial, gather = t.conflicts == conflict_avoidance::gather;
+  if (t.conflicts == conflict_avoidance::unsaid) return "does not say how it keeps threads apart";
+  if (serial != (t.threads == runtime::serial)) return "is serial on several threads, or has one and is not";
+  if (gather && t.symmetric) return "gathers, but computes each pair once";
+  return "";
+}
+
+TEST(registry, every_backend_says_how_it_keeps_threads_apart) {
+  for (const backend_entry& b : registry::instance().backends())
+    EXPECT_EQ(fault_of_conflicts(b.traits), "") << b.traits.name;
+}
+
+TEST(registry, a_wrong_word_for_how_threads_are_kept_apart_is_found) {
+  backend_traits t = registry::instance().find_backend("symmetric_omp").traits;
+  EXPECT_EQ(fault_of_conflicts(t), "");
+  for (const auto wrong : {conflict_avoidance::unsaid, conflict_avoidance::serial, conflict_avoidance::gather}) {
+    t.conflicts = wrong;
+    EXPECT_NE(fault_of_conflicts(t), "") << name_of(wrong);
+  }
+  t = registry::instance().find_backend("naive").traits;
+  t.conflicts = conflict_avoidance::colours;
+  EXPECT_NE(fault_of_conflicts(t), "");
+  EXPECT_EQ(name_of(conflict_avoidance::tasks), "tasks");
+  EXPECT_EQ(name_of(backend_traits{}.conflicts), "unsaid") << "an own backend need not say it";
+}
+
 TEST(registry, makes_every_combination_it_lists) {
   const registry& r = registry::instance();
   const setup world = make_scene("dam_break", 0.1, "rest").world;

@@ -15,6 +15,7 @@ import style  # noqa: E402
 
 MADE = {"two_threads": made_summary.make(),
         "sixteen_threads": made_summary.make((1, 2, 4, 8, 16)),
+        "field": made_summary.field(),
         "one_panel": made_summary.make(states=("rest",), ms=(6,), intervals=False)}
 FULL = made_summary.full(ms=(6, 7))
 
@@ -24,6 +25,13 @@ def any_made(request):
     """Each made summary in turn, and the one that fills every table."""
     style.apply()
     return {**MADE, "full": FULL}[request.param]
+
+
+@pytest.fixture
+def field():
+    """The summary of every backend; not to be changed."""
+    style.apply()
+    return MADE["field"]
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@ import importlib
 
 import figures
 
-MODULES = tuple(importlib.import_module(name) for name in figures.FIGURES)
+MODULES = tuple(importlib.import_module(name) for name in (*figures.FIGURES, *figures.STRATEGIES))
 _drawn = {}
 
 

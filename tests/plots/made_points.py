@@ -16,7 +16,7 @@ def point(place, series, backend, m, threads, intervals, granularity=None, slowe
     (state, dx), granularity = place, granularity or USUAL[runtime(backend)]
     fluid, boundary, pairs = WORLDS[dx]
     total = sum_time(state, backend, m, threads, dx, granularity, slower)
-    parts = (0.05, 0.6 if backend == "pair_list" else 0.04, 0.03 * 2 ** (m - 7), 1.0, 0.004, 0.06)
+    parts = (0.05, 0.6 if family(backend) == "pair_list" else 0.04, 0.03 * 2 ** (m - 7), 1.0, 0.004, 0.06)
     values = {phase: total * part for phase, part in zip(PHASES, parts)}
     values["total_s"] = 1.01 * sum(values.values())
     phases = {phase: {"median": value, **spread(value, intervals),

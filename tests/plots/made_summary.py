@@ -1,7 +1,8 @@
 """Build summaries (pairsum.summary/2) whose numbers are invented but shaped like measured ones."""
 import made_points
+import made_strategies
 import made_tables
-from made_worlds import BACKENDS, MS, PARALLEL, USUAL, bandwidth, family, peak, runtime
+from made_worlds import BACKENDS, MS, PARALLEL, USUAL, USUALLY, bandwidth, family, peak, runtime
 
 GNU = {"environment": "0123456789abcdef", "host": "host", "cpu": "Example CPU 9000 @ 2.00GHz",
        "compiler": "GNU 12.2.0", "flags": "-O3 -march=native", "git": "abc1234", "dirty": False,
@@ -12,11 +13,11 @@ CLANG = {**GNU, "environment": "fedcba9876543210", "compiler": "Clang 14.0.6"}
 CHUNKS = ("dynamic:1", "dynamic:8", "dynamic:128", "dynamic:1024", "static:32", "static:256", "guided:1")
 
 
-def make(thread_counts=(1, 2), states=("rest", "collapsed"), ms=MS, intervals=True, dxs=(0.00594,)):
+def make(thread_counts=(1, 2), states=("rest", "collapsed"), ms=MS, intervals=True, dxs=(0.00594,), backends=USUALLY):
     """Return a whole summary of one machine and compiler in the form of docs/design.md section 4."""
     worlds = [(state, dx) for dx in dxs for state in states]
     points = [made_points.point(place, number, backend, m, threads, intervals)
-              for number, place in enumerate(worlds) for backend in BACKENDS for m in ms
+              for number, place in enumerate(worlds) for backend in backends for m in ms
               for threads in (thread_counts if backend in PARALLEL else (1,))]
     data = {"schema": "pairsum.summary/2", "title": "Made numbers: is the symmetric sum twice as fast?",
             "sources": ["made/host.jsonl"],
@@ -28,7 +29,12 @@ def make(thread_counts=(1, 2), states=("rest", "collapsed"), ms=MS, intervals=Tr
                       for precision in ("double", "float") for threads in thread_counts],
             "rounds": {"finished": 6, "void": 1, "others_share": 0.013}, "failed": [],
             "compiler_comparison": [], "caveats": ["the numbers are invented to test the figures"]}
-    return {**data, **made_tables.tables(data, intervals)}
+    return {**data, **made_tables.tables(data, intervals), **made_strategies.tables(data, intervals)}
+
+
+def field(thread_counts=(1, 2)):
+    """Return a summary of every backend in two worlds."""
+    return make(thread_counts, ms=(7,), backends=BACKENDS)
 
 
 def full(ms=MS):
@@ -44,7 +50,7 @@ def full(ms=MS):
                        for grain in ("simple:8", "simple:128", "static", "affinity")]
     data["points"] += [made_points.point(("rest", 0.00594), clang, backend, 7, threads, True,
                                          slower=0.97 if family(backend) == "naive" else 1.06)
-                       for backend in BACKENDS for threads in ((1, 4) if backend in PARALLEL else (1,))]
+                       for backend in USUALLY for threads in ((1, 4) if backend in PARALLEL else (1,))]
     copy = made_points.point(("rest", 0.00594), 0, "symmetric_omp", 7, 4, True, slower=1.05)
     copy["point"]["backend"] = "slowed_5_symmetric_omp"
     data["points"].append(copy)

@@ -26,7 +26,7 @@ def title(made, state, rest):
 def test_speedup_and_efficiency_draw_the_table(made, module, value):
     wanted, bars = {}, {}
     for row in made["speedup"]:
-        if not row["backend"].endswith(("_omp", "_tbb")):
+        if style.runtime(row["backend"]) == "serial":
             continue
         panel, label = title(made, row["state"], f"M={row['M']}"), f"{row['backend']} M={row['M']}"
         wanted.setdefault(panel, {}).setdefault(label, []).append((row["threads"], row[value]))

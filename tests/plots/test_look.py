@@ -19,11 +19,15 @@ def drawn(module, made):
         pytest.skip(str(missing))
 
 
-def test_a_backend_has_one_colour_in_all_figures(full):
+def test_a_backend_has_one_colour_in_all_figures(full, field):
     seen = {}
-    for module in drawing.MODULES:
-        if module is not phase_split:  # its colours are the phases'
-            for backend, some in artists.colours(drawn(module, full)).items():
+    for module in (module for module in drawing.MODULES if module is not phase_split):  # its colours are the phases'
+        for made in (full, field):
+            try:
+                figure = drawing.of(module, made)
+            except NoData:
+                continue
+            for backend, some in artists.colours(figure).items():
                 seen.setdefault(backend, set()).update(some)
     assert seen == {backend: {colour.upper()} for backend, colour in style.BACKENDS.items()}
     assert len(set(style.BACKENDS.values())) == len(style.BACKENDS)

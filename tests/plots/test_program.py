@@ -8,8 +8,8 @@ import pytest
 
 import plot
 
-#: What a summary of one size, compiler and granularity cannot show.
-NEED_MORE = {"size_scaling", "granularity", "compilers"}
+#: What a summary of one size, world, compiler and granularity cannot show.
+NEED_MORE = {"size_scaling", "granularity", "compilers", "strategy_worlds"}
 
 
 def refused(done):

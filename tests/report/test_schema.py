@@ -22,7 +22,9 @@ PLAN = {
     "peaks": True, "self_test": True,
     "defaults": {"case": "dam_break", "dx": 0.06, "state": "rest", "steps": 2, "rounds": [3, 3]},
     "parts": [{"name": "all", "reason": "small", "M": "3,7", "threads": "all",
-               "backend": "naive_omp,naive_tbb,symmetric_omp,symmetric_tbb,again_symmetric_omp,corrupt_symmetric_omp"}],
+               "backend": "naive_omp,naive_tbb,sphysics_sweep,symmetric_omp,symmetric_tbb,again_symmetric_omp,corrupt_symmetric_omp"},
+              {"name": "sparse", "reason": "few neighbours", "H": 0.07, "M": 7, "threads": "all",
+               "backend": "naive_omp,sphysics_sweep,symmetric_omp"}],
 }
 
 sys.path.insert(0, str(ROOT / "plots"))
@@ -90,10 +92,11 @@ def test_definitions_of_rows_are_those_of_the_rows():
 def test_a_real_summary_is_valid_and_has_what_was_measured(summary, validator):
     validator.validate(summary)
     for table in ("series", "points", "speedup", "algorithm_speedup", "runtime_comparison", "m_comparison", "self_test",
-                  "peaks", "questions", "failed", "caveats"):
+                  "strategies", "strategy_ladder", "strategy_threads", "strategy_shifts", "peaks", "questions", "failed", "caveats"):
         assert summary[table], table
+    assert {row["what"] for row in summary["strategy_shifts"]} == {"sparsity"}
     assert summary["answer"] and summary["points"][0]["model"] and summary["points"][0]["passes"]
-    assert summary["rounds"]["finished"] == 3
+    assert summary["rounds"]["finished"] == 6
 
 
 def test_the_plots_accept_a_real_summary(summary):
@@ -150,6 +153,13 @@ def test_a_value_of_another_type_is_rejected(summary, validator):
     (("algorithm_speedup", 0, "base_time_s"), None),
     (("m_comparison", 0, "collision_share"), -0.5),
     (("self_test", 0, "holds"), None),
+    (("strategies", 0, "conflicts"), "luck"),
+    (("strategy_ladder", 0, "at"), "some_threads"),
+    (("strategy_ladder", 0, "rank"), 0),
+    (("strategy_ladder", 0, "extra_bytes"), -1),
+    (("strategy_threads", 0, "ratio"), None),
+    (("strategy_shifts", 0, "what"), "weather"),
+    (("strategy_shifts", 0, "base_rank"), None),
     (("peaks", 0, "flops_per_s"), 0),
     (("failed", 0, "rows"), 0),
     (("rounds", "finished"), -1),
@@ -159,6 +169,8 @@ def test_a_wrong_value_is_rejected(summary, validator, place, wrong):
 
 
 @pytest.mark.parametrize("place", [("answer",), ("points", 0, "model"), ("points", 0, "passes"), ("points", 0, "work"),
-                                   ("rounds", "others_share"), ("speedup", 0, "machine_flops_scaling")])
+                                   ("rounds", "others_share"), ("speedup", 0, "machine_flops_scaling"),
+                                   ("points", 0, "workspace_bytes"), ("strategies", 0, "breaks_down"),
+                                   ("strategy_ladder", 0, "over_serial"), ("strategy_ladder", 0, "efficiency")])
 def test_what_may_be_unknown_may_be_null(summary, validator, place):
     assert validator.is_valid(changed(summary, place, None))

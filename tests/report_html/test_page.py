@@ -6,6 +6,7 @@ import browser
 import figures
 import made_summary
 import page_check
+import strategy_tables
 from conftest import other_machine
 
 WIDTHS = (1280, 390)
@@ -51,6 +52,27 @@ def test_every_figure_is_there_and_can_be_read(chromium, page, width):
         assert around == "FIGURE"
 
 
+def test_strategies_have_a_section_with_figures_and_tables(chromium, page):
+    browser.show(chromium, page)
+    headings = [head.text for head in chromium.find_elements(By.CSS_SELECTOR, "#strategies h3")]
+    assert headings == [heading for heading, _ in figures.STRATEGIES.values()] + [
+        heading for _, heading, *_ in strategy_tables.TABLES]
+    said = chromium.find_element(By.ID, "strategies").text
+    made = made_summary.full(ms=(6, 7))
+    for row in made["strategies"]:
+        assert row["backend"] in said and row["aliases"] in said
+    first = chromium.execute_script("return document.querySelector('#table-strategies ~ .machines tbody tr').innerText")
+    assert "what the field calls" in first and "not in what was measured" in first
+
+
+def test_without_strategies_there_is_no_section(chromium, program, two):
+    two.update(strategies=[], strategy_ladder=[], strategy_threads=[], strategy_shifts=[])
+    _, path = program(two)
+    browser.show(chromium, path)
+    assert not chromium.find_elements(By.ID, "strategies") and browser.console(chromium) == []
+    assert "Strategies" not in chromium.find_element(By.ID, "contents").text
+
+
 def test_machines_stand_beside_each_other_and_below_each_other_on_a_phone(chromium, compared):
     places = ("return [...document.querySelectorAll('#figure-speedup ~ .machines')[0].children]"
               ".map((one) => [one.getBoundingClientRect().left, one.querySelectorAll('svg').length])")
@@ -73,7 +95,7 @@ def test_the_answer_stands_first(chromium, page, compared):
         assert f"{made['answer']['speedup']:.3g}"[:4] in said and "interval" in said
         assert f"The base, naive, M={made['answer']['base_M']}, 1 thread, takes " in said
     order = chromium.execute_script("return [...document.querySelectorAll('h2')].map((head) => head.innerText)")
-    assert order == ["Questions", "Figures", "Tables", "Environments", "Caveats"]
+    assert order == ["Questions", "Figures", "Strategies", "Tables", "Environments", "Caveats"]
 
 
 @pytest.mark.parametrize("width", WIDTHS)

@@ -62,6 +62,7 @@ inline sample measured() {
   s.work = work_row{262144, 11, 12, 13, 14, 15, 16, 17, 10};
   s.counters = counters_row{1000, 2000, std::nullopt};
   s.peak_rss_bytes = 123456789;
+  s.workspace_bytes = 9876543;
   s.verify = verify_row{1.1e-15, 1e-14, "fedcba9876543210"};
   return s;
 }
@@ -75,6 +76,7 @@ inline sample failed() {
   s.counters.reset();
   s.work.reset();
   s.peak_rss_bytes.reset();
+  s.workspace_bytes.reset();
   s.verify = verify_row{0.5, 1e-14, std::nullopt};
   s.error = "particle 7: relative error 0.5 above its bound 1e-14";
   return s;

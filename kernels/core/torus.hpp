@@ -1,0 +1,70 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/vec.hpp"
+
+namespace pairsum {
+
+/// What is the way from one point of Omega to another. In a periodic box it is the shortest of those through and not
+/// through the faces, the minimum image; points are compared in this one expression everywhere. Way and way back are
+/// the same to the last bit, so i and j agree on whether they interact.
+template <int D, class R>
+struct torus {
+  bool periodic = false;
+  vec<D, R> edge, half;             ///< m; of a periodic box
+  vec<D, R> inner_low, inner_high;  ///< who lies between has all its neighbours on this side of the faces
+
+  torus() = default;
+  torus(const box<D, R>& omega, R H) : periodic(omega.periodic) {
+    constexpr R u = std::numeric_limits<R>::epsilon();
+    for (int d = 0; d < D; ++d) {
+      edge[d] = omega.edge(d);
+      half[d] = edge[d] / 2;
+      // Wider than H by what rounding can do to a difference.
+      const R far = std::max(std::abs(omega.low[d]), std::abs(omega.high[d])) + edge[d];
+      const R rim = R(1.01) * H + 8 * u * far;
+      inner_low[d] = omega.low[d] + rim;
+      inner_high[d] = omega.high[d] - rim;
+    }
+  }
+
+  /// This, if a neighbour of x may lie beyond a face; else, and always without periodic faces, nullptr.
+  [[gnu::always_inline]] const torus* seen_from(const vec<D, R>& x) const {
+    return periodic && near_face(x) ? this : nullptr;
+  }
+  bool near_face(const vec<D, R>& x) const {
+    bool near = false;
+    for (int d = 0; d < D; ++d) near = near || !(x[d] >= inner_low[d] && x[d] <= inner_high[d]);
+    return near;
+  }
+  /// The shortest of the ways that are r but for whole edges, |r| being at most an edge per component.
+  [[gnu::always_inline]] vec<D, R> shortest(vec<D, R> r) const {
+    for (int d = 0; d < D; ++d) r[d] -= r[d] > half[d] ? edge[d] : r[d] < -half[d] ? -edge[d] : R(0);
+    return r;
+  }
+};
+
+/// A point of Omega, as it is seen when the ways to others are asked for: the difference of two is the way from the
+/// second to the first. The first decides whether ways through the faces are looked at, so in a loop over the second
+/// nothing is asked that does not hold for all of it. Right for points less than H apart.
+template <int D, class R>
+struct point {
+  vec<D, R> x;
+  const torus<D, R>* across;  ///< nullptr: no neighbour lies beyond a face
+
+  [[gnu::always_inline]] operator const vec<D, R>&() const { return x; }  // NOLINT: it is one
+  [[gnu::always_inline]] R operator[](int d) const { return x[d]; }
+
+  [[gnu::always_inline]] friend vec<D, R> operator-(const point& a, const point& b) { return a - b.x; }
+  [[gnu::always_inline]] friend vec<D, R> operator-(const point& a, const vec<D, R>& b) {
+    const vec<D, R> r = a.x - b;
+    if (a.across != nullptr) [[unlikely]]
+      return a.across->shortest(r);
+    return r;
+  }
+  [[gnu::always_inline]] friend vec<D, R> operator-(const vec<D, R>& a, const point& b) { return -(b - a); }
+};
+
+}  // namespace pairsum

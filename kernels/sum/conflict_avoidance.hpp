@@ -1,0 +1,23 @@
+#pragma once
+#include <string_view>
+
+namespace pairsum {
+
+/// How a backend keeps two threads from writing to one particle at a time.
+enum class conflict_avoidance {
+  unsaid,   ///< its traits do not say
+  serial,   ///< one thread
+  gather,   ///< a thread writes its own particles alone, and computes pairs with others' a second time
+  colours,  ///< what is done at a time shares no particle; barriers between colours
+  atomics,  ///< every addition is atomic
+  copies,   ///< threads or passes add to copies of the rates, which are joined
+  locks,    ///< particles or cells are locked while they are added to
+  tasks,    ///< tasks that would share particles wait for each other
+};
+
+inline constexpr std::string_view name_of(conflict_avoidance c) {
+  constexpr std::string_view names[]{"unsaid", "serial", "gather", "colours", "atomics", "copies", "locks", "tasks"};
+  return names[static_cast<unsigned>(c)];
+}
+
+}  // namespace pairsum

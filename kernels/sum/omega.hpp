@@ -1,0 +1,20 @@
+#pragma once
+#include "core/torus.hpp"
+#include "sum/setup.hpp"
+
+namespace pairsum {
+
+/// Omega in the working precision, rounded outwards, so that no particle inside it is outside after rounding.
+template <int D, class R>
+box<D, R> make_box(const setup& s);
+/// Axis d of it.
+template <class R>
+box<1, R> make_box_of_axis(const setup& s, std::size_t d);
+
+/// What the ways between points of Omega are, in the working precision; `skin`: of lists of pairs, in units of H.
+template <int D, class R>
+torus<D, R> make_torus(const setup& s, double skin = 0) {
+  return {make_box<D, R>(s), static_cast<R>(s.constants.H * (1 + skin))};
+}
+
+}  // namespace pairsum

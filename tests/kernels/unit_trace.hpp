@@ -1,0 +1,84 @@
+#pragma once
+#include <limits>
+#include <map>
+#include <vector>
+
+#include "interactions/count.hpp"
+#include "sum/summation_of.hpp"
+
+/// Which particles each unit of work of a backend writes to, found by running it on one thread and looking at the rates
+/// between units, so whatever its lists and colours say of themselves.
+namespace pairsum::test_kit {
+
+/// Units of one pass, in their order: the particles each wrote to, ascending.
+using written_by_unit = std::vector<std::vector<std::uint32_t>>;
+
+/// Notes at the beginning of each unit what changed in the one before.
+template <class I>
+class unit_trace : public pass_marks {
+ public:
+  static constexpr bool counting = false;
+  explicit unit_trace(const problem<I>& p) : p_(p), before_(p.fluid_count, 0) {}
+
+  void unit_begins(unsigned pass, std::size_t) {
+    close();
+    passes[pass].emplace_back();
+    open_ = &passes[pass].back();
+  }
+  /// To be called after the sum.
+  void close() {
+    for (std::uint32_t i = 0; i < p_.fluid_count; ++i) {
+      const std::uint64_t now = p_.u.load(i).neighbours;
+      if (now != before_[i] && open_ != nullptr) open_->push_back(i);
+      before_[i] = now;
+    }
+    open_ = nullptr;
+  }
+  void sumF1(std::uint64_t) {}
+  void sumF2(std::uint64_t) {}
+  void tested(std::uint64_t) {}
+  void fluid_pairs(std::uint64_t) {}
+  void boundary_pairs(std::uint64_t) {}
+  void evaluated(std::uint64_t) {}
+  void pairs_of_one(std::uint64_t) {}
+
+  std::map<unsigned, written_by_unit> passes;
+
+ private:
+  const problem<I>& p_;
+  std::vector<std::uint64_t> before_;
+  std::vector<std::uint32_t>* open_ = nullptr;
+};
+
+/// What the units of backend B write to when all candidates interact, however far they are.
+template <class B, int D>
+std::map<unsigned, written_by_unit> units_of(const particle_set<D, double>& particles, const indexer<D, double>& index,
+                                             const setup& s) {
+  using I = count<D, double>;
+  interaction_columns<I> columns(s.constants, make_torus<D, double>(s));
+  const team alone;
+  columns.derive(particles, index.fluid(), index.boundary(), alone);
+  columns.zero_rates(alone);
+  problem<I> p = columns.view(particles, index.view());
+  p.reach2 = p.boundary_reach2 = std::numeric_limits<double>::max();
+  typename B::template workspace<I> workspace;
+  configure(workspace, s);
+  unit_trace<I> trace(p);
+  with_one_thread(B::traits.threads, [&](const team& one) {
+    workspace.prepare(p, one, trace);
+    workspace.sum(p, one, trace);
+  });
+  trace.close();
+  return trace.passes;
+}
+
+/// Particles that two units of a pass write to.
+inline std::size_t conflicts_in(const written_by_unit& pass, std::size_t fluid) {
+  std::vector<int> writers(fluid, 0);
+  std::size_t n = 0;
+  for (const auto& unit : pass)
+    for (const std::uint32_t i : unit) n += ++writers[i] == 2;
+  return n;
+}
+
+}  // namespace pairsum::test_kit
