@@ -63,6 +63,15 @@ def flat(summary, entry):
             if known else None}
 
 
+def of_series(summary, table):
+    """Group a table's rows by series alone, for tables that mix what else a backend was measured with."""
+    keeps, copies = usual.is_usual(summary), self_test_copies(summary)
+    rows = [row for row in summary[table] if keeps(row) and row["backend"] not in copies]
+    points = [flat(summary, entry) for entry in summary["points"]]
+    return [Panel(some, {**_facts([point for point in points if point["series"] == series] or some), "grid": set()})
+            for series, some in split(rows, "series")]
+
+
 def titles(panels):
     """Return (text common to all panels, [text of what differs, one per panel])."""
     worded = [_words(panel.facts) for panel in panels]

@@ -7,11 +7,16 @@ from summary import NoData
 
 
 def worlds(summary, table):
-    """Return [panels.Panel] of a strategy table, one per series, or raise NoData."""
-    found = panels.of_table(summary, table)
+    """Return ([panels.Panel] of a strategy table, one per series, what is common to all), or raise NoData."""
+    found = panels.of_series(summary, table)
     if not found:
         raise NoData(f'the table "{table}" has no row')
-    return found
+    return found, panels.titles(found)[0]
+
+
+def world(panel):
+    """Say which world a panel shows."""
+    return panel.rows[0]["world"]
 
 
 def kinds(summary):

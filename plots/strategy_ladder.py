@@ -15,8 +15,7 @@ _AT = {"one_thread": "1 thread", "most_threads": "each at its most threads"}
 
 def draw(summary):
     """Return the figure, or raise NoData. Per world: 1 thread and most threads."""
-    found = strategies.worlds(summary, "strategy_ladder")
-    common, own = panels.titles(found)
+    found, common = strategies.worlds(summary, "strategy_ladder")
     split = [[(at, sorted(rows, key=lambda row: row["rank"])) for at, rows in panels.split(panel.rows, "at")]
              for panel in found]
     split = [sorted(columns, key=lambda column: list(_AT).index(column[0])) for columns in split]
@@ -25,16 +24,17 @@ def draw(summary):
     for columns, group in zip(split, places):
         for (_, rows), (row, _) in zip(columns, group):
             heights[row] = max(heights.get(row, 0), 0.15 + _BAR * len(rows))
-    titles = {place: panels.joined(text, f"{_AT[at]}; base {_base(rows[0])}") for columns, text, group
-              in zip(split, own, places) for (at, rows), place in zip(columns, group)}
-    everything = [row for panel in found for row in panel.rows]
+    titles = {place: f"{strategies.world(panel)}: {_AT[at]}; base {_base(rows[0])}" for columns, panel, group
+              in zip(split, found, places) for (at, rows), place in zip(columns, group)}
+    all_rows = [row for panel in found for row in panel.rows]
     page = layout.Sheet(summary, "Strategies: times as fast as the base (prepare + zero + sum + reduce)",
-                        f"{common}; lines: {thread_lines.confidence(everything)}; in brackets: time", titles, 2.7,
-                        heights, (labels.tick_room(map(_name, everything)), labels.room(map(_value, everything))),
-                        key=strategies.key(summary, [row["backend"] for row in everything]))
+                        f"{common}; lines: {thread_lines.confidence(all_rows)}; in brackets: time", titles, 2.7,
+                        heights, (labels.tick_room(map(_name, all_rows)), labels.room(map(_value, all_rows))),
+                        key=strategies.key(summary, [row["backend"] for row in all_rows]))
     colours = strategies.colours(summary)
     for columns, group in zip(split, places):
-        right = max(_end(row) for _, rows in columns for row in rows)
+        everything = [row for _, rows in columns for row in rows]
+        right = min(max(map(_end, everything)), 1.4 * max(row["ratio"] for row in everything))  # wide intervals are cut
         for (_, rows), place in zip(columns, group):
             _panel(page.axes[place], rows, colours, right)
     return page.figure
@@ -65,7 +65,7 @@ def _panel(axes, rows, colours, right):
         if row["low"] is not None and row["high"] is not None:
             axes.plot([row["low"], row["high"]], [at, at], color=style.INK, linewidth=1.6, marker="|", markersize=6,
                       label=f"interval {row['backend']}", zorder=3)
-        axes.annotate(_value(row), (_end(row), at), xytext=(5, 0), textcoords="offset points", va="center",
+        axes.annotate(_value(row), (min(_end(row), right), at), xytext=(5, 0), textcoords="offset points", va="center",
                       fontsize=style.SMALL)
     axes.set_yticks(range(len(rows)), map(_name, rows))
     axes.set_ylim(len(rows) - 0.4, -0.6)

@@ -48,7 +48,7 @@ TABLES = (
       ("efficiency", _nested("efficiency"), NUMBER), ("wait [%]", key("wait_share", 100, 3), NUMBER),
       ("extra [MiB]", key("extra_bytes", 2.0 ** -20, 3), NUMBER),
       ("extra [B/particle]", key("extra_bytes_per_particle", digits=3), NUMBER)]),
-    ("strategy_shifts", "From world to world", "Ratio: time over that of the base in the other world / the same here; below "
+    ("strategy_shifts", "Standing from world to world", "Ratio: time over that of the base in the other world / the same here; below "
      "1 the backend stands worse here, whatever the machine did between the two.",
      [("world", key("world"), TEXT), ("other world", key("base_world"), TEXT), ("backend", key("backend"), TEXT),
       ("threads", key("threads"), NUMBER), *RATIO, *VERDICT, ("rank", _rank("rank", "of"), NUMBER),

@@ -8,7 +8,6 @@ import panels
 import strategies
 import style
 import thread_lines
-import usual
 from summary import NoData
 
 NAME = "strategy_worlds"
@@ -37,8 +36,7 @@ def draw(summary):
 
 def _rows(summary):
     """Return the rows of the highest ladder of each series."""
-    keeps, copies = usual.is_usual(summary), panels.self_test_copies(summary)
-    rows = [row for row in summary["strategy_ladder"] if keeps(row) and row["backend"] not in copies]
+    rows = [row for panel in panels.of_series(summary, "strategy_ladder") for row in panel.rows]
     high = {row["series"] for row in rows if row["at"] == "most_threads"}
     return [row for row in rows if (row["at"] == "most_threads") == (row["series"] in high)]
 

@@ -41,15 +41,17 @@ class Line:
         return last["threads"], last[self.value], self.text, self.colour
 
 
-def sheet(summary, title, groups, value_axis, references, key=(), most=3):
+def sheet(summary, title, groups, value_axis, references, key=(), most=3, common=None):
     """Draw groups of panels and return the figure.
 
     groups: per panels.Panel a list of (column text, [Line]); value_axis(axes, lines, counts) sets
     the y axis; references(axes, counts, lines) draws lines and returns their ends for the labels; `most` panels
-    stand side by side.
+    stand side by side. The titles say what tells the panels apart, unless `common` is given.
     """
     keys = [panel for panel, _ in groups]
-    common, own = panels.titles(keys)
+    own = [""] * len(keys)
+    if common is None:
+        common, own = panels.titles(keys)
     places = layout.arrange(summary, [columns for _, columns in groups], most)
     titles = {place: panels.joined(text, column) for (_, columns), text, group
               in zip(groups, own, places) for (column, _), place in zip(columns, group)}

@@ -15,8 +15,7 @@
 #include "core/omp_loop.hpp"
 #include "sum/backend.hpp"
 #include "sum/coloured_cells.hpp"
-#include "sum/fetch.hpp"
-#include "sum/half_stencil.hpp"
+#include "sum/scatter_cell.hpp"
 
 namespace pairsum {
 
@@ -53,9 +52,7 @@ struct colour18 {
         const auto& list = by_colour[colour];
         omp_pass(colour, list.size(), g, probe, [&](std::size_t k) {
           if (k + 1 < list.size()) fetch_half_stencil(p, list[k + 1]);
-          sweep_cell<I::dim>(p.cells(), list[k], probe, [&](std::uint32_t i, const auto& fluid, const auto& boundary) {
-            scatter_one(p, i, fluid, boundary, probe);
-          });
+          scatter_cell(p, list[k], probe);
         });
       }
     }

@@ -54,11 +54,11 @@ struct per_pass_buffers {
       const granularity g = t.granularity_or(traits.loop);
       probe.pass_begins(0);
 #pragma omp parallel num_threads(t.threads())
-      {
+      omp_pass_of(0, probe, [&] {
         for (unsigned o = 0; o < passes; ++o) {
           const problem<I> own = copies.with_copy(p, o);
           const auto& b = blocks[o];
-          omp_pass_without_barrier(0, b.size(), g, probe, [&](std::size_t k) {
+          omp_share(0, b.size(), g, probe, [&](std::size_t k) {
             for (const std::uint32_t cell : b[k]) {
               const cell_range& range = p.cells().range[cell];
               zero_range(own.u, range.fluid_begin, range.fluid_end);
@@ -66,9 +66,7 @@ struct per_pass_buffers {
             sum_block_of(own, b, k, probe);
           });
         }
-#pragma omp barrier
-        if (omp_get_thread_num() == 0) probe.pass_ends(0);
-      }
+      });
     }
 
     void reduce(const problem<I>& p, const team& t) { copies.join(p, t); }

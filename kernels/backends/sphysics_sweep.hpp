@@ -7,8 +7,7 @@
 // Complete, each pair once; not thread-safe as it stands: patterns of neighbouring cells overlap. Race-free here: one
 // thread.
 #include "sum/backend.hpp"
-#include "sum/fetch.hpp"
-#include "sum/half_stencil.hpp"
+#include "sum/scatter_cell.hpp"
 
 namespace pairsum {
 
@@ -33,13 +32,7 @@ struct sphysics_sweep {
 
     template <class Probe>
     void sum(const problem<I>& p, const team&, Probe& probe) {
-      const auto& c = p.cells();
-      for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) {
-        fetch_for_next_cell<true>(p, cell);
-        sweep_cell<I::dim>(c, cell, probe, [&](std::uint32_t i, const auto& fluid, const auto& boundary) {
-          scatter_one(p, i, fluid, boundary, probe);
-        });
-      }
+      for (std::size_t cell = 1; cell <= p.cells().fluid_cells; ++cell) scatter_cell_in_order(p, cell, probe);
     }
   };
 };

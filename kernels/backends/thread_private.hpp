@@ -14,9 +14,8 @@
 // are too.
 #include "core/omp_loop.hpp"
 #include "sum/backend.hpp"
-#include "sum/fetch.hpp"
-#include "sum/half_stencil.hpp"
 #include "sum/private_columns.hpp"
+#include "sum/scatter_cell.hpp"
 
 namespace pairsum {
 
@@ -57,12 +56,7 @@ struct thread_private {
 #pragma omp parallel num_threads(t.threads())
       {
         const problem<I> own = copies.with_copy(p, static_cast<std::size_t>(omp_get_thread_num()));
-        omp_pass(0, p.cells().fluid_cells, g, probe, [&](std::size_t k) {
-          fetch_for_next_cell<true>(own, k + 1);
-          sweep_cell<I::dim>(own.cells(), k + 1, probe, [&](std::uint32_t i, const auto& fluid, const auto& boundary) {
-            scatter_one(own, i, fluid, boundary, probe);
-          });
-        });
+        omp_pass(0, p.cells().fluid_cells, g, probe, [&](std::size_t k) { scatter_cell_in_order(own, k + 1, probe); });
       }
     }
 

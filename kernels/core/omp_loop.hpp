@@ -8,16 +8,14 @@
 
 namespace pairsum {
 
-/// The worksharing loop of one pass inside an OpenMP parallel region: f(0) .. f(n-1), shared out as `g` says, with the
-/// marks of the pass. All threads of the region call it; those who are done go on without waiting for the others.
+/// A worksharing loop inside an OpenMP parallel region, one of a pass: f(0) .. f(n-1), shared out as `g` says. All
+/// threads of the region call it; those who are done go on without waiting for the others.
 template <class Marks, class F>
-void omp_pass_without_barrier(unsigned pass, std::size_t n, const granularity& g, Marks& marks, F&& f) {
-  const int thread = omp_get_thread_num();
+void omp_share(unsigned pass, std::size_t n, const granularity& g, Marks& marks, F&& f) {
   const auto unit = [&](std::size_t k) {
     mark_unit(marks, pass, k);
     f(k);
   };
-  marks.work_begins(pass, thread);
   const std::size_t chunk = g.chunk;
   if (g.how == schedule::guided) {
 #pragma omp for schedule(guided, chunk) nowait
@@ -32,15 +30,24 @@ void omp_pass_without_barrier(unsigned pass, std::size_t n, const granularity& g
 #pragma omp for schedule(dynamic, chunk) nowait
     for (std::size_t k = 0; k < n; ++k) unit(k);
   }
-  marks.work_ends(pass, thread);
 }
 
-/// The same; the threads leave it together, when the pass is done.
+/// A pass inside an OpenMP parallel region, work() being each thread's part of it, with its marks. The threads leave it
+/// together, when all are done.
+template <class Marks, class Work>
+void omp_pass_of(unsigned pass, Marks& marks, Work&& work) {
+  const int thread = omp_get_thread_num();
+  marks.work_begins(pass, thread);
+  work();
+  marks.work_ends(pass, thread);
+#pragma omp barrier
+  if (thread == 0) marks.pass_ends(pass);
+}
+
+/// A pass that is one loop.
 template <class Marks, class F>
 void omp_pass(unsigned pass, std::size_t n, const granularity& g, Marks& marks, F&& f) {
-  omp_pass_without_barrier(pass, n, g, marks, f);
-#pragma omp barrier
-  if (omp_get_thread_num() == 0) marks.pass_ends(pass);
+  omp_pass_of(pass, marks, [&] { omp_share(pass, n, g, marks, f); });
 }
 
 }  // namespace pairsum

@@ -13,9 +13,10 @@ namespace pairsum {
 template <int D, class R>
 struct torus {
   bool periodic = false;
-  vec<D, R> edge, half;             ///< m; of a periodic box
-  vec<D, R> inner_low, inner_high;  ///< who lies between has all its neighbours on this side of the faces
+  vec<D, R> edge = zeros(), half = zeros();             ///< m; of a periodic box
+  vec<D, R> inner_low = zeros(), inner_high = zeros();  ///< who lies between has all its neighbours on this side
 
+  static vec<D, R> zeros() { return vec<D, R>::Zero(); }
   torus() = default;
   torus(const box<D, R>& omega, R H) : periodic(omega.periodic) {
     constexpr R u = std::numeric_limits<R>::epsilon();

@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sum/fetch.hpp"
-#include "sum/half_stencil.hpp"
+#include "sum/scatter_cell.hpp"
 
 namespace pairsum {
 
@@ -53,10 +52,7 @@ void find_layers(const cells<D>& c, std::vector<cell_layer>& layers) {
 template <class I, class Probe>
 void sweep_cells(const problem<I>& p, std::size_t begin, std::size_t end, Probe& probe) {
   for (std::size_t cell = begin; cell < end; ++cell) {
-    fetch_for_next_cell<true>(p, cell);
-    sweep_cell<I::dim>(p.cells(), cell, probe, [&](std::uint32_t i, const auto& fluid, const auto& boundary) {
-      scatter_one(p, i, fluid, boundary, probe);
-    });
+    scatter_cell_in_order(p, cell, probe);
   }
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/same_code.hpp"
 #include "core/team.hpp"
 #include "sum/half_stencil.hpp"
 
@@ -86,7 +87,7 @@ class pair_rows {
 
 /// Sums the pairs of row i, all of which interact.
 template <class I, class Probe>
-[[gnu::always_inline]] inline void sum_row(const problem<I>& p, const pair_rows& rows, std::size_t i, Probe& probe) {
+PAIRSUM_SAME_CODE void sum_row(const problem<I>& p, const pair_rows& rows, std::size_t i, Probe& probe) {
   using real = typename I::real;
   const pair_rows::row& row = rows[i];
   const auto x_i = p.position(i);

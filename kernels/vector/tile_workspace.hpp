@@ -11,7 +11,7 @@
 #include "core/team.hpp"
 #include "sum/block_setup.hpp"
 #include "sum/gather_cell.hpp"
-#include "sum/half_stencil.hpp"
+#include "sum/scatter_cell.hpp"
 #include "sum/setup.hpp"
 #include "vector/tile_problem.hpp"
 
@@ -226,9 +226,7 @@ class tile_workspace {
   template <class Probe>
   void sum_scalar(const problem<I>& p, std::size_t cell, Probe& probe) {
     if constexpr (symmetric) {
-      sweep_cell<I::dim>(p.cells(), cell, probe, [&](std::uint32_t i, const auto& fluid, const auto& boundary) {
-        scatter_one(p, i, fluid, boundary, probe);
-      });
+      scatter_cell(p, cell, probe);
     } else {
       gather_cell(p, cell, probe);
     }

@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/error.hpp"
 #include "harness/plan/study.hpp"
+#include "harness/plan/variants.hpp"
 #include "harness/run/worker.hpp"
 
 namespace pairsum::harness {
@@ -26,7 +30,7 @@ study_plan accepted(const json& j) {
 }
 
 TEST(study, shipped_plans_parse_and_come_back_the_same) {
-  EXPECT_GE(shipped_plans().size(), 7u);
+  EXPECT_GE(shipped_plans().size(), 9u);
   for (const shipped_plan& shipped : shipped_plans()) {
     const study_plan plan = parse_plan(load_plan(std::string(shipped.name)), 4);
     EXPECT_EQ(plan.study, shipped.name);
@@ -43,6 +47,51 @@ TEST(study, shipped_plans_parse_and_come_back_the_same) {
       EXPECT_NE(std::string(e.what()).find("build"), std::string::npos) << plan.study << ": " << e.what();
     }
   }
+}
+
+/// What a study of the field lacks: every backend that can be used, six rounds, worlds to compare, a sparse and a plane
+/// one; empty if nothing.
+std::string fault_of_field(const study_plan& plan) {
+  std::set<std::string> backends;
+  for (const backend_entry& b : registry::instance().backends())
+    if (b.unavailable.empty()) backends.emplace(b.traits.name);
+  std::set<int> dims;
+  std::map<std::string, std::set<double>> reaches;
+  for (const part_plan& p : plan.parts) {
+    const run_request& r = p.request;
+    if (std::set<std::string>(r.backends.begin(), r.backends.end()) != backends) return r.part + " lacks backends";
+    if (p.least_rounds < 6) return r.part + " has no intervals";
+    if (r.threads.size() < 2) return r.part + " does not go over threads";
+    if (r.states != std::vector<std::string>{"perturbed"}) return r.part + " proves little at rest";
+    dims.insert(r.dim);
+    reaches[r.case_name].insert(r.H);
+  }
+  if (dims != std::set<int>{2, 3}) return "2D and 3D are not compared";
+  if (!reaches.contains("dam_break") || reaches["random_clustered"].size() < 2) return "no sparse world";
+  return "";
+}
+
+TEST(study, field_takes_every_backend_into_every_world) {
+  const json j = load_plan("field");
+  EXPECT_EQ(fault_of_field(parse_plan(j, 4)), "");
+  const auto faulty = [&](const char* path, const json& value) {
+    json changed = j;
+    changed[json::json_pointer(path)] = value;
+    EXPECT_NE(fault_of_field(parse_plan(changed, 4)), "") << path;
+  };
+  faulty("/parts/0/backend", "naive_omp,symmetric_omp");
+  faulty("/defaults/rounds", 5);
+  faulty("/defaults/threads", 1);
+  faulty("/defaults/state", "rest");
+  faulty("/parts/3/dim", 3);
+  faulty("/parts/2/H", 0.0215);
+}
+
+TEST(study, a_serial_backend_of_the_field_is_measured_once_per_world) {
+  const study_plan plan = parse_plan(load_plan("field"), 4);
+  for (const world_plan& points : expand(plan.parts.front().request))
+    for (const char* serial : {"naive", "sphysics_sweep"})
+      EXPECT_EQ(std::ranges::count(points, serial, &point::backend), 1) << serial;
 }
 
 TEST(study, defaults_hold_for_every_part_that_does_not_say_otherwise) {

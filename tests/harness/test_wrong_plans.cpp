@@ -82,6 +82,7 @@ TEST(wrong_plan, is_refused_for_its_parts) {
 
 TEST(wrong_plan, is_refused_for_its_levels) {
   expect_refused("/parts/0/backend", "nope", "valid: ");
+  expect_refused("/parts/0/backend", "all,naive", "unknown backend \"all\"");
   expect_refused("/parts/0/backend", json::array(), "\"backend\"");
   expect_refused("/parts/0/backend", {"naive", 3.5}, "3.5");
   expect_refused("/parts/0/backend", json::object(), "\"backend\"");

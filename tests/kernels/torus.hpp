@@ -27,7 +27,7 @@ cells<D> make_cells(std::int64_t period, std::int64_t extent, HasFluid&& has_flu
     places.push_back(place_of(n));
   }
   c.fluid_cells = places.size() - 1;
-  c.period = period;
+  c.period.fill(period);
   c.resize_fluid();
   c.range.resize(places.size());
   for (std::uint32_t cell = 1; cell <= c.fluid_cells; ++cell) {

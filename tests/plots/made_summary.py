@@ -34,7 +34,7 @@ def make(thread_counts=(1, 2), states=("rest", "collapsed"), ms=MS, intervals=Tr
 
 def field(thread_counts=(1, 2)):
     """Return a summary of every backend in two worlds."""
-    return make(thread_counts, ms=(7,), backends=BACKENDS)
+    return make(thread_counts, ms=(6,), backends=BACKENDS)
 
 
 def full(ms=MS):

@@ -21,8 +21,7 @@ AT = {"1 thread": "one_thread", "each at its most threads": "most_threads"}
 def ladder_of(made, title):
     """Return the rows that a panel of the ladder shows, fastest first."""
     at = next(word for text, word in AT.items() if f"{text}; base" in title)
-    state = {row["state"] for row in made["strategy_ladder"] if title.startswith(row["state"])}
-    rows = [row for row in made["strategy_ladder"] if row["at"] == at and (not state or row["state"] in state)]
+    rows = [row for row in made["strategy_ladder"] if row["at"] == at and title.startswith(row["world"] + ":")]
     return sorted(rows, key=lambda row: row["rank"])
 
 
@@ -54,11 +53,11 @@ def test_colours_say_how_threads_are_kept_apart(field):
 def test_lines_over_threads_are_the_table(field):
     wanted = {}
     for row in field["strategy_threads"]:
-        wanted.setdefault(f"over threads {row['backend']} M=7", set()).add((row["state"], row["threads"], row["ratio"]))
+        wanted.setdefault(f"over threads {row['backend']} M=6", set()).add((row["world"], row["threads"], row["ratio"]))
     drawn = {}
     for title, axes in artists.panels(drawing.of(strategy_threads, field)).items():
         for name, spots in artists.lines(axes).items():
-            drawn.setdefault(name, set()).update((title.split(",")[0], *spot) for spot in spots)
+            drawn.setdefault(name, set()).update((title.split(";")[0], *spot) for spot in spots)
     parallel = {name: spots for name, spots in wanted.items() if KINDS[name.split()[2]] != "serial"}
     assert drawn == parallel and len(drawn) > 15
 
