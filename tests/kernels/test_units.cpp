@@ -4,6 +4,7 @@
 #include "backends/colour4.hpp"
 #include "backends/half_cells.hpp"
 #include "backends/pair_list_omp.hpp"
+#include "backends/sliced_2colour.hpp"
 #include "backends/symmetric_omp.hpp"
 #include "scene.hpp"
 #include "sum/grids.hpp"
@@ -65,7 +66,7 @@ void units_of_a_pass_write_different_particles() {
 
 template <class B>
 class units_test : public testing::Test {};
-using coloured = testing::Types<symmetric_omp, colour18, colour4, half_cells, pair_list_omp>;
+using coloured = testing::Types<symmetric_omp, colour18, colour4, half_cells, pair_list_omp, sliced_2colour>;
 struct backend_name {
   template <class B>
   static std::string GetName(int) {
