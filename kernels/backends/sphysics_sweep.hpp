@@ -35,6 +35,7 @@ struct sphysics_sweep {
     void sum(const problem<I>& p, const team&, Probe& probe) {
       const auto& c = p.cells();
       for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) {
+        mark_unit(probe, 0, cell - 1);
         fetch_for_next_cell<true>(p, cell);
         sweep_cell<I::dim>(c, cell, probe, [&](std::uint32_t i, const auto& fluid, const auto& boundary) {
           scatter_one(p, i, fluid, boundary, probe);
