@@ -437,9 +437,8 @@ std::string tasks() {
   for (std::uint32_t k = 0; k < by_colour.size(); ++k) at[by_colour[k].second] = k;
   drawing d("task_conflicts", w, s, workspace.block());
   for (const auto& [own_colour, k] : by_colour)
-    d.add(own_colour, {{{"own", s.of_cells(workspace.blocks(0, k))},
-                        {"rates", s.of(trace.units[k].stretches[0].written[0])}},
-                       {}});
+    d.add(own_colour,
+          {{{"own", s.of_cells(workspace.blocks(0, k))}, {"rates", s.of(trace.units[k].stretches[0].written[0])}}, {}});
   std::vector<block_pair> edges;
   for (const auto& [a, b] : conflicts) edges.emplace_back(std::min(at[a], at[b]), std::max(at[a], at[b]));
   d.edges(edges);
@@ -478,9 +477,10 @@ std::vector<std::string> all() {
           units<half_cells>(seam, half_base, "half_cells_seam", 2),
           units<pair_list_omp>({.block = "slab:2"}, own_of_blocks<false>),
           units<verlet_list>({.block = "slab:2", .skin = verlet_list::traits.skin}, own_of_blocks<false>),
-          units<sliced_2colour>(plain, [](const scene_in_2d& s, const auto& w, unsigned pass, std::size_t k) {
-            return s.of_cells(w.slabs[pass][k].begin, w.slabs[pass][k].end);
-          }),
+          units<sliced_2colour>(plain,
+                                [](const scene_in_2d& s, const auto& w, unsigned pass, std::size_t k) {
+                                  return s.of_cells(w.slabs[pass][k].begin, w.slabs[pass][k].end);
+                                }),
           slabs_with_locks(),
           tasks(),
           units<atomic_add>(plain, own_cell),
