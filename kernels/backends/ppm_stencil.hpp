@@ -38,7 +38,10 @@ struct ppm_stencil {
 
     template <class Probe>
     void sum(const problem<I>& p, const team&, Probe& probe) {
-      for (std::size_t k = 0; k < blocks.size(); ++k) sum_block_of(p, blocks, k, probe);
+      for (std::size_t k = 0; k < blocks.size(); ++k) {
+        mark_unit(probe, 0, k);
+        sum_block_of(p, blocks, k, probe);
+      }
     }
   };
 };

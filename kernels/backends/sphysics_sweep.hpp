@@ -32,7 +32,10 @@ struct sphysics_sweep {
 
     template <class Probe>
     void sum(const problem<I>& p, const team&, Probe& probe) {
-      for (std::size_t cell = 1; cell <= p.cells().fluid_cells; ++cell) scatter_cell_in_order(p, cell, probe);
+      for (std::size_t cell = 1; cell <= p.cells().fluid_cells; ++cell) {
+        mark_unit(probe, 0, cell - 1);
+        scatter_cell_in_order(p, cell, probe);
+      }
     }
   };
 };

@@ -13,12 +13,35 @@ namespace pairsum::test_kit {
 /// Units of one pass, in their order: the particles each wrote to, ascending.
 using written_by_unit = std::vector<std::vector<std::uint32_t>>;
 
+/// Sees which entries of a column of rates changed, between looks.
+template <class I>
+class watched_rates {
+ public:
+  watched_rates(const field_pointers<rates_of<I>>& u, std::size_t n) : u_(u), before_(n) {
+    for (std::size_t i = 0; i < n; ++i) before_[i] = u_.load(i).neighbours;
+  }
+  /// Since the last look, ascending.
+  std::vector<std::uint32_t> changed() {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t i = 0; i < before_.size(); ++i) {
+      const std::uint64_t now = u_.load(i).neighbours;
+      if (now != before_[i]) found.push_back(i);
+      before_[i] = now;
+    }
+    return found;
+  }
+
+ private:
+  field_pointers<rates_of<I>> u_;
+  std::vector<std::uint64_t> before_;
+};
+
 /// Notes at the beginning of each unit what changed in the one before.
 template <class I>
 class unit_trace : public pass_marks {
  public:
   static constexpr bool counting = false;
-  explicit unit_trace(const problem<I>& p) : p_(p), before_(p.fluid_count, 0) {}
+  explicit unit_trace(const problem<I>& p) : rates_(p.u, p.fluid_count) {}
 
   void unit_begins(unsigned pass, std::size_t) {
     close();
@@ -27,11 +50,8 @@ class unit_trace : public pass_marks {
   }
   /// To be called after the sum.
   void close() {
-    for (std::uint32_t i = 0; i < p_.fluid_count; ++i) {
-      const std::uint64_t now = p_.u.load(i).neighbours;
-      if (now != before_[i] && open_ != nullptr) open_->push_back(i);
-      before_[i] = now;
-    }
+    const std::vector<std::uint32_t> changed = rates_.changed();
+    if (open_ != nullptr) *open_ = changed;
     open_ = nullptr;
   }
   void sumF1(std::uint64_t) {}
@@ -45,8 +65,7 @@ class unit_trace : public pass_marks {
   std::map<unsigned, written_by_unit> passes;
 
  private:
-  const problem<I>& p_;
-  std::vector<std::uint64_t> before_;
+  watched_rates<I> rates_;
   std::vector<std::uint32_t>* open_ = nullptr;
 };
 
