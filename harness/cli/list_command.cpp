@@ -86,9 +86,9 @@ void print_text() {
   const registry& r = registry::instance();
   fmt::print("backends\n");
   for (const backend_entry& b : r.backends()) {
-    fmt::print("  {:<16}{:<7}{}\n", b.traits.name, name_of(b.traits.threads), b.traits.description);
-    fmt::print("  {:<23}also: {}\n", "", b.traits.aliases);
-    if (!b.unavailable.empty()) fmt::print("  {:<23}unavailable: {}\n", "", b.unavailable);
+    fmt::print("  {:<20} {:<7}{}\n", b.traits.name, name_of(b.traits.threads), b.traits.description);
+    fmt::print("  {:<28}also: {}\n", "", b.traits.aliases);
+    if (!b.unavailable.empty()) fmt::print("  {:<28}unavailable: {}\n", "", b.unavailable);
   }
   fmt::print("cases\n");
   for (const case_entry& c : case_entries()) fmt::print("  {:<20} {}\n", c.name, c.description);

@@ -53,7 +53,7 @@ class lines_printer {
     failed_here_ += !l.ok;
     if (l.share >= worst_) worst_ = l.share, worst_backend_ = s.backend;
     if (each_ || !l.ok)
-      fmt::print("{}{:<16} {:<13} threads={:<4}{}\n", formula, s.backend + extras(s), cells(s), l.threads,
+      fmt::print("{}{:<17} {:<13} threads={:<4}{}\n", formula, s.backend + extras(s), cells(s), l.threads,
                  l.ok ? fmt::format("{:.3g}", l.share) : "FAILED: " + l.error);
     std::fflush(stdout);
   }
