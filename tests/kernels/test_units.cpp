@@ -8,6 +8,7 @@
 #include "backends/symmetric_omp.hpp"
 #include "scene.hpp"
 #include "sum/grids.hpp"
+#include "sum/setup_of.hpp"
 #include "unit_trace.hpp"
 
 // Is a colour free of conflicts on every grid, the seams of a torus that three colours do not go round among them?

@@ -4,6 +4,8 @@
 #include "integrators/integrator.hpp"
 #include "interactions/count.hpp"
 #include "scene.hpp"
+#include "sum/setup_of.hpp"
+#include "sum/summation_of.hpp"
 
 // The list that is kept against a fresh search, while a dam breaks.
 namespace pairsum {
