@@ -49,6 +49,11 @@ def shown_ticks(axis):
     return [tick.label1 for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
 
 
+def _overlap(one, other):
+    """Tell whether two boxes (left, low, right, high) overlap."""
+    return one[0] <= other[2] and other[0] <= one[2] and one[1] <= other[3] and other[1] <= one[3]
+
+
 def overlaps(figure):
     """Return pairs of texts whose boxes overlap, and texts that leave the figure."""
     canvas = FigureCanvasAgg(figure)
@@ -61,8 +66,8 @@ def overlaps(figure):
     texts = [text for text in texts if text.get_text().strip()]
     # an annotation's own extent includes its leader; the text alone is wanted
     boxes = [(text.get_text(), Text.get_window_extent(text, renderer)) for text in texts]
-    bad = [(a, b) for i, (a, one) in enumerate(boxes) for b, other in boxes[i + 1:]
-           if one.shrunk(0.97, 0.85).overlaps(other.shrunk(0.97, 0.85))]
+    inner = [(text, *box.shrunk(0.97, 0.85).extents) for text, box in boxes]  # numbers: there are many pairs
+    bad = [(a, b) for i, (a, *one) in enumerate(inner) for b, *other in inner[i + 1:] if _overlap(one, other)]
     page = figure.bbox
     bad += [(text, "page") for text, box in boxes if box.x0 < 0 or box.y0 < 0
             or box.x1 > page.x1 or box.y1 > page.y1]
