@@ -9,7 +9,7 @@ namespace {
 
 using namespace test_kit;
 
-constexpr const char* cutters[] = {"sliced_locks", "sliced_2colour", "task_conflicts"};
+const std::string cutters[] = {"sliced_locks", "sliced_2colour", "task_conflicts"};
 
 class sliced_test : public testing::TestWithParam<std::tuple<std::string, world_kind>> {
  protected:
