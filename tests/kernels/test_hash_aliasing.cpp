@@ -45,6 +45,7 @@ TEST_P(hash_aliasing_test, row_of_clusters_on_the_same_cells) {
   expect_agreement(s, 1000);
   const auto sum = evaluated(with(s.world, GetParam(), 2), s.particles);
   EXPECT_LE(sum->count_work().cells_nonempty, 64u);
+  if (sum->traits().skin > 0) return;  // what is tested was listed
   EXPECT_GT(sum->count_work().pairs_tested, 10 * sum->count_work().pairs_interacting()) << "far clusters share cells";
 }
 

@@ -87,7 +87,10 @@ TEST_P(periodic_faces_test, no_pair_is_missed_or_summed_twice) {
       ASSERT_EQ(sum->rates().columns, expected.columns) << backend << " " << grid;
       ++summed;
     }
-  EXPECT_GE(summed, 3 * backend_names().size());
+  // Cells that are wider by a skin may be too few to go round.
+  const auto without_skin = std::ranges::count_if(
+      backend_names(), [](const auto& b) { return registry::instance().find_backend(b).traits.skin == 0; });
+  EXPECT_GE(summed, 3 * static_cast<std::size_t>(without_skin));
 }
 
 /// In such boxes cells are H wide exactly, so that the hashed grid with 2^M H = the edge has the torus of the talk.

@@ -31,7 +31,7 @@ TEST(verlet_list, names_the_pairs_of_a_fresh_search_at_every_step) {
   counting_list list(with(world, "verlet_list", 5, "count"));
   list.load(start.particles, {});
   const double sound = start.eos.sound_speed0();
-  const double dt = 0.1 * start.H / sound;  // s
+  const double dt = 0.04 * start.H / sound;  // s
   std::size_t reused = 0;
   for (int step = 0; step < 200; ++step) {
     const auto now = dam->snapshot();
