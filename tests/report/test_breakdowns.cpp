@@ -88,7 +88,7 @@ json tables(const json& changed) {
 
 TEST(breakdown, is_said_where_the_interval_lies_beyond_the_limit) {
   const auto found = [](const json& changed) { return breakdowns(tables(changed), "own"); };
-  EXPECT_TRUE(found({}).empty());
+  EXPECT_TRUE(found(json::object()).empty());
   EXPECT_EQ(found({{"efficiency", estimate(0.6, 0.5, 0.7)}}),
             std::vector<std::string>{"8 threads: efficiency 0.60 [0.50, 0.70] (w)"});
   EXPECT_EQ(found({{"over_serial", estimate(2, 1.6, 2.5)}}),
