@@ -66,7 +66,10 @@ TEST(full_size, every_backend_finds_the_known_numbers_of_pairs) {
       EXPECT_EQ(n.pairs_fluid_fluid, 12731796u);
       EXPECT_EQ(n.pairs_fluid_boundary, 860542u);
       EXPECT_EQ(n.pairs_interacting(), 13592338u);
-      EXPECT_EQ(n.pairs_tested, sum->traits().symmetric ? e.symmetric : e.naive);
+      if (t.cells_per_reach == 1 && t.skin == 0)
+        EXPECT_EQ(n.pairs_tested, t.symmetric ? e.symmetric : e.naive);
+      else  // half cells and kept lists are there to test fewer
+        EXPECT_LT(n.pairs_tested, e.symmetric);
       EXPECT_EQ(n.cells, e.grid.M > 0                  ? std::uint64_t{1} << 3 * e.grid.M
                          : e.grid.name == "dense_grid" ? 274u * 152 * 51
                                                        : n.cells_nonempty);
