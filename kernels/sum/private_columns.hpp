@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/team.hpp"
 #include "sum/problem.hpp"
 
 namespace pairsum {

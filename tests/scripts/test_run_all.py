@@ -164,11 +164,13 @@ def test_an_interrupt_ends_at_once_and_says_what_is_kept(sandbox, sent, status):
     began = time.monotonic()
     while not sandbox.calls("pairsum run") and time.monotonic() - began < 20:
         time.sleep(0.05)
+    out = value(sandbox.calls("pairsum run")[0], "--out")
+    while not (sandbox.tree / out).exists() and time.monotonic() - began < 20:  # the rows it will speak of
+        time.sleep(0.05)
     time.sleep(0.3)
     os.kill(running.pid, sent)
     _, errors = running.communicate(timeout=10)
     assert running.returncode == status
-    out = value(sandbox.calls("pairsum run")[0], "--out")
     assert errors.splitlines()[-1] == (
         f"run_all.sh: interrupted; finished rounds are kept in {out}; "
         f"to go on: build/study/bin/pairsum run quick --out {out}")
