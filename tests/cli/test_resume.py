@@ -163,7 +163,7 @@ def test_many_kills(cut_study, uninterrupted, seed):
             kills += 1
         process.wait()
         assert cut_study.left_behind() == []
-    assert kills >= 10, "it ended before: " + process.stdout.read()  # where others slowed the uninterrupted one
+    assert kills >= 5, "it ended before: " + process.stdout.read()  # where others slowed the uninterrupted one
     if ended:
         assert process.returncode == 0, process.stdout.read()
     else:
