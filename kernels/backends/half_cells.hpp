@@ -60,65 +60,90 @@ struct half_cells {
       if (blocks.colours() > 0) probe.pass_begins(0);
 #pragma omp parallel num_threads(t.threads())
       for (unsigned colour = 0; colour < blocks.colours(); ++colour)
-        omp_pass(colour, blocks.size(colour), g, probe,
-                 [&](std::size_t k) { sum_half_block(p, blocks(colour, k), probe); });
+        omp_pass(colour, blocks.size(colour), g, probe, [&](std::size_t k) {
+          if (k + 2 < blocks.size(colour)) order.fetch_ranges(*blocks(colour, k + 2).cells);
+          if (k + 1 < blocks.size(colour)) fetch_block(p, blocks(colour, k + 1));
+          sum_half_block(p, blocks(colour, k), probe);
+        });
     }
 
    private:
+    /// The half cells of a block: member o, at offset o of the pattern from its base.
+    struct block_members {
+      const cell_range* of[members];
+      bool have_boundary;  ///< any of them
+
+      block_members(const half_cell_order<D, real>& order, const typename half_blocks<D>::unit& b) {
+        std::uint32_t boundary = 0;
+        for (unsigned o = 0; o < members; ++o) {
+          const auto [cell, part] = pattern::half_block_place<D>[b.part][o];
+          of[o] = &order.range((*b.cells)[cell], part);
+          boundary |= of[o]->boundary();
+        }
+        have_boundary = boundary != 0;
+      }
+    };
+
     template <class Probe>
     PAIRSUM_SAME_CODE void sum_half_block(const problem<I>& p, const typename half_blocks<D>::unit& b, Probe& probe) {
-      const cell_range* member[members];
-      for (unsigned o = 0; o < members; ++o) {
-        unsigned cell = 0, part = 0;
-        for (unsigned d = 0, code = o; d < D; ++d, code /= 3) {
-          const unsigned at = (b.part >> d & 1) + code % 3;  // half cells from the lower end of the base cell
-          cell |= at / 2 << d;
-          part |= at % 2 << d;
-        }
-        member[o] = &order.range((*b.cells)[cell], part);
-      }
+      const block_members member(order, b);
+      const auto& lists = pattern::half_block<D>;
       for (unsigned j = 0; j < members; ++j) {
-        const cell_range& own = *member[j];
+        const cell_range& own = *member.of[j];
         if (own.fluid() == 0) continue;
         range_of_members fluid, boundary;
-        const auto& lists = pattern::half_block<D>;
-        for (unsigned n = lists.begin[j]; n < lists.begin[j + 1]; ++n) {
-          const unsigned k = lists.offset[n];
-          const cell_range& other = *member[k];
-          if (k > j) fluid.add(other.fluid_begin, other.fluid_end);
-          boundary.add(other.boundary_begin, other.boundary_end);
-          if constexpr (Probe::counting) {  // as sum_block() counts
-            probe.sumF1(k == j);
-            probe.sumF2(k != j && other.fluid() + other.boundary() > 0 && (k > j || other.fluid() == 0));
+        if (j == 0) fluid.add(own.fluid_begin, own.fluid_end);
+        for (unsigned n = lists.later[j]; n < lists.begin[j + 1]; ++n) {
+          const cell_range& other = *member.of[lists.offset[n]];
+          fluid.add(other.fluid_begin, other.fluid_end);
+        }
+        if (has_boundary<I> && member.have_boundary) {
+          for (unsigned n = lists.begin[j]; n < lists.begin[j + 1]; ++n) {
+            const cell_range& other = *member.of[lists.offset[n]];
+            boundary.add(other.boundary_begin, other.boundary_end);
           }
         }
-        const auto later = fluid;
+        if constexpr (Probe::counting) count_cell_pairs(member, j, probe);
+        if (fluid.empty() && boundary.empty()) continue;
         for (std::uint32_t i = own.fluid_begin; i < own.fluid_end; ++i) {
-          if (j == 0) {
-            fluid = {};
-            fluid.add(i + 1, own.fluid_end);
-            for (const index_range& r : later) fluid.add(r.begin, r.end);
-          }
+          if (j == 0) fluid.begin_first_at(i + 1);  // inside the base cell: with those behind i
           scatter(p, i, fluid, boundary, probe);
         }
       }
     }
 
-    /// scatter_one() for number i of the order, with ranges of such numbers.
+    /// Counts for particles of member j as sum_block() does.
+    template <class Probe>
+    static void count_cell_pairs(const block_members& member, unsigned j, Probe& probe) {
+      const auto& lists = pattern::half_block<D>;
+      for (unsigned n = lists.begin[j]; n < lists.begin[j + 1]; ++n) {
+        const unsigned k = lists.offset[n];
+        const cell_range& other = *member.of[k];
+        probe.sumF1(k == j);
+        probe.sumF2(k != j && other.fluid() + other.boundary() > 0 && (k > j || other.fluid() == 0));
+      }
+    }
+
+    /// scatter_one() for number i of the order, with ranges of such numbers. Most find nobody in reach: particle i is
+    /// not looked at before somebody is.
     template <class Probe>
     [[gnu::always_inline]] void scatter(const problem<I>& p, std::uint32_t i, const range_of_members& fluid,
                                         const range_of_members& boundary, Probe& probe) {
       const positions<D, real> x = order.x();
       const auto x_i = x.point_of(i);
-      const auto a = p.fluid.load(order[i]);
-      auto u_i = zero<rates_of<I>>();
-      const std::size_t n = filter_of<I>::each_in_reach(
-          x, x_i, p.reach2, fluid, [&](std::uint32_t k) __attribute__((always_inline)) {
-            const vec<D, real> r = x_i - x[k];
-            const std::uint32_t j = order[k];
-            const auto c = p.formula->pair(r, norm2<D, real>(r), a, p.fluid.load(j));
-            add(u_i, c.to_i);
-            p.u.add(j, c.to_j);
+      const std::size_t n = filter_of<I>::batches_in_reach(
+          x, x_i, p.reach2, fluid, [&](const std::uint32_t* hits, std::size_t n) __attribute__((always_inline)) {
+            if (n == 0) return;
+            const auto a = p.fluid.load(order[i]);
+            auto u_i = zero<rates_of<I>>();
+            for (std::size_t h = 0; h < n; ++h) {
+              const vec<D, real> r = x_i - x[hits[h]];
+              const std::uint32_t j = order[hits[h]];
+              const auto c = p.formula->pair(r, norm2<D, real>(r), a, p.fluid.load(j));
+              add(u_i, c.to_i);
+              p.u.add(j, c.to_j);
+            }
+            p.u.add(order[i], u_i);
           });
       if constexpr (Probe::counting) {
         probe.tested(filter_of<I>::size(fluid));
@@ -127,18 +152,30 @@ struct half_cells {
         probe.pairs_of_one(n);
       }
       if constexpr (has_boundary<I>) {
+        if (boundary.empty()) return;
+        const auto a = p.fluid.load(order[i]);
+        auto u_i = zero<rates_of<I>>();
         const std::size_t m = filter_of<I>::each_in_reach(
             x, x_i, p.boundary_reach2, boundary, [&](std::uint32_t k) __attribute__((always_inline)) {
               const vec<D, real> r = x_i - x[k];
               add(u_i, p.formula->boundary(r, norm2<D, real>(r), a, p.boundary_particle(order[k])));
             });
+        p.u.add(order[i], u_i);
         if constexpr (Probe::counting) {
           probe.tested(filter_of<I>::size(boundary));
           probe.boundary_pairs(m);
           probe.evaluated(m);
         }
       }
-      p.u.add(order[i], u_i);
+    }
+
+    /// Asks for the particles of a block that is due soon.
+    PAIRSUM_SAME_CODE void fetch_block(const problem<I>& p, const typename half_blocks<D>::unit& b) const {
+      for (const std::uint32_t cell : *b.cells) fetch_columns<true>(p, cell);
+      for (unsigned row = 0; row < members; row += 3) {
+        const auto [cell, part] = pattern::half_block_place<D>[b.part][row];
+        order.fetch(order.range((*b.cells)[cell], part));
+      }
     }
   };
 };

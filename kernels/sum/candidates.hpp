@@ -21,6 +21,8 @@ class range_list {
     else
       ranges_[n_++] = {begin, end};
   }
+  /// Leaves out what is below `begin` in the first range.
+  void begin_first_at(std::uint32_t begin) { ranges_[0].begin = begin; }
   const index_range* begin() const { return ranges_.data(); }
   const index_range* end() const { return ranges_.data() + n_; }
   bool empty() const { return n_ == 0; }
@@ -49,6 +51,16 @@ class candidate_filter {
   template <class Point, class Ranges, class Visit>
   [[gnu::always_inline]] static std::size_t each_in_reach(const positions<D, R>& x, const Point& x_i, R reach2,
                                                           const Ranges& ranges, Visit&& visit) {
+    return batches_in_reach(
+        x, x_i, reach2, ranges, [&](const std::uint32_t* hits, std::size_t n) __attribute__((always_inline)) {
+          for (std::size_t k = 0; k < n; ++k) visit(hits[k]);
+        });
+  }
+
+  /// The same, but calls visit(hits, n) for many at a time, and maybe for none.
+  template <class Point, class Ranges, class Visit>
+  [[gnu::always_inline]] static std::size_t batches_in_reach(const positions<D, R>& x, const Point& x_i, R reach2,
+                                                             const Ranges& ranges, Visit&& visit) {
     // What visit does with a point that has this branch behind it needs no other for the faces.
     if (const auto* const across = across_of(x, x_i); across != nullptr) [[unlikely]]
       return each_through_faces(*across, x, x_i, reach2, ranges, visit);
@@ -57,8 +69,8 @@ class candidate_filter {
 
   /// The same for candidates that were listed.
   template <class Point, class Visit>
-  [[gnu::always_inline]] static std::size_t each_in_reach(const positions<D, R>& x, const Point& x_i, R reach2,
-                                                          const index_list& list, Visit&& visit) {
+  [[gnu::always_inline]] static std::size_t batches_in_reach(const positions<D, R>& x, const Point& x_i, R reach2,
+                                                             const index_list& list, Visit&& visit) {
     if (const auto* const across = across_of(x, x_i); across != nullptr) [[unlikely]]
       return each_listed(x, point<D, R>{x_i, across}, reach2, list, visit);
     return each_listed(x, point<D, R>{x_i, nullptr}, reach2, list, visit);
@@ -88,7 +100,7 @@ class candidate_filter {
     std::uint32_t hits[2 * piece];
     std::size_t n = 0, total = 0;
     const auto flush = [&]() __attribute__((always_inline)) {
-      for (std::size_t k = 0; k < n; ++k) visit(hits[k]);
+      visit(hits, n);
       total += n;
       n = 0;
     };
@@ -129,7 +141,7 @@ class candidate_filter {
         }
         if (j >= range->end && ++range != ranges.end()) j = range->begin;
       }
-      for (std::size_t k = 0; k < n; ++k) visit(hits[k]);
+      visit(hits, n);
       total += n;
     }
     return total;
@@ -147,7 +159,7 @@ class candidate_filter {
         hits[n] = *begin;
         n += norm2<D, R>(x_i - x[*begin]) < reach2;
       }
-      for (std::size_t k = 0; k < n; ++k) visit(hits[k]);
+      visit(hits, n);
       total += n;
     }
     return total;

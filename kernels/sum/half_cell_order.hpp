@@ -29,6 +29,20 @@ class half_cell_order {
   /// The numbers in a part of a cell.
   const cell_range& range(std::size_t cell, unsigned part) const { return range_[cell * parts + part]; }
 
+  /// Asks memory for where the parts of cells are.
+  template <class Cells>
+  void fetch_ranges(const Cells& cells) const {
+    for (const std::uint32_t cell : cells) {
+      __builtin_prefetch(&range_[cell * parts]);
+      __builtin_prefetch(&range_[cell * parts + parts - 1]);
+    }
+  }
+  /// Asks memory for the positions that begin a range, and for which particles are there.
+  void fetch(const cell_range& range) const {
+    __builtin_prefetch(&order_[range.fluid_begin]);
+    for (const auto& column : x_) __builtin_prefetch(&column[range.fluid_begin]);
+  }
+
  private:
   template <class Begin, class End>
   void sort_run(const cells<D>& c, std::size_t first, std::size_t end, Begin begin_of, End end_of);
