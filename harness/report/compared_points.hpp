@@ -23,6 +23,16 @@ bool is_timed(const measured_point& p);
 bool has_best_granularity(const measurements& all, const measured_point& p,
                           std::optional<double> phases::*phase = &phases::sum_s);
 
+/// The point that differs from `p` in what `change(point&)` does to it; nullptr if it was not measured.
+template <class Change>
+const measured_point* counterpart(const measurements& all, const measured_point& p, Change change) {
+  point wanted = p.point;
+  change(wanted);
+  for (const measured_point& q : all.points)
+    if (q.series == p.series && q.point == wanted) return &q;
+  return nullptr;
+}
+
 /// A point's M, null where its grid takes none.
 nlohmann::json m_or_null(const point& p);
 

@@ -13,16 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-/// The point that differs from `p` in what `change` does to it; nullptr if it was not timed.
-template <class Change>
-const measured_point* counterpart(const measurements& all, const measured_point& p, Change change) {
-  point wanted = p.point;
-  change(wanted);
-  for (const measured_point& q : all.points)
-    if (q.series == p.series && q.point == wanted && is_timed(q)) return &q;
-  return nullptr;
-}
-
 bool has_other_threads(const measurements& all, const measured_point& p) {
   for (const measured_point& q : all.points) {
     point like = q.point;
@@ -106,7 +96,7 @@ json thread_speedups(const measurements& all, std::vector<std::string>& caveats)
   for (const measured_point& own : all.points) {
     if (!is_timed(own) || (own.point.threads == 1 && !has_other_threads(all, own))) continue;
     const measured_point* const base = counterpart(all, own, [](point& p) { p.threads = 1; });
-    if (base == nullptr) {
+    if (base == nullptr || !is_timed(*base)) {
       if (own.point.threads > 1) without_base.push_back(label(all, own));
       continue;
     }

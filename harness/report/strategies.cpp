@@ -12,16 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-/// The point that differs from `p` in what `change` does to it; nullptr if it was not measured.
-template <class Change>
-const measured_point* counterpart(const measurements& all, const measured_point& p, Change change) {
-  point wanted = p.point;
-  change(wanted);
-  for (const measured_point& q : all.points)
-    if (q.series == p.series && q.point == wanted) return &q;
-  return nullptr;
-}
-
 /// A ratio as {"value", "low", "high", "confidence", "rounds"}, divided by `by`.
 json estimate(const ratio_estimate& r, double by = 1) {
   json e{{"value", r.value / by}, {"rounds", r.pairs}};

@@ -20,7 +20,7 @@
 #include "sum/backend.hpp"
 #include "sum/block_conflicts.hpp"
 #include "sum/block_setup.hpp"
-#include "sum/layers.hpp"
+#include "sum/scatter_cell.hpp"
 
 namespace pairsum {
 
@@ -69,7 +69,7 @@ struct task_conflicts {
           const int thread = ::tbb::this_task_arena::current_thread_index();
           probe.work_begins(0, thread);
           mark_unit(probe, 0, k);
-          for (const std::uint32_t cell : blocks(0, k)) sweep_cells(p, cell, cell + 1, probe);
+          for (const std::uint32_t cell : blocks(0, k)) scatter_cell_in_order(p, cell, probe);
           probe.work_ends(0, thread);
         });
         probe.pass_ends(0);

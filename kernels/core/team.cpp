@@ -2,6 +2,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include <string>
+
+#include "core/error.hpp"
 #include "core/tbb_arena.hpp"
 
 namespace pairsum {
@@ -20,6 +23,12 @@ void team::for_each(std::size_t n, index_function f) const {
     return;
   }
   for (std::size_t i = 0; i < n; ++i) f(i);
+}
+
+void check_prepared(int threads, const team& t) {
+  if (t.threads() > threads)
+    throw error("prepared for " + std::to_string(threads) + " threads, but to be summed on " +
+                std::to_string(t.threads()));
 }
 
 }  // namespace pairsum

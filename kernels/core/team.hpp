@@ -87,4 +87,7 @@ class team {
   granularity granularity_;
 };
 
+/// Throws pairsum::error if a sum that was prepared for so many threads gets a team of more.
+void check_prepared(int threads, const team& t);
+
 }  // namespace pairsum

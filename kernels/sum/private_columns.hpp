@@ -1,9 +1,7 @@
 #pragma once
 #include <algorithm>
-#include <string>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/team.hpp"
 #include "sum/problem.hpp"
 
@@ -59,13 +57,6 @@ void zero_range(const field_pointers<S>& u, std::size_t begin, std::size_t end) 
     using scalar = std::remove_cvref_t<decltype(a)>;
     std::fill(u.template column_as<scalar>(slot) + begin, u.template column_as<scalar>(slot) + end, scalar(0));
   });
-}
-
-/// Throws pairsum::error if a sum gets more threads than it was prepared for.
-inline void check_prepared(int prepared, const team& t) {
-  if (t.threads() > prepared)
-    throw error("prepared for " + std::to_string(prepared) + " threads, but to be summed on " +
-                std::to_string(t.threads()));
 }
 
 }  // namespace pairsum

@@ -107,9 +107,7 @@ class tile_workspace {
   /// To be called before the first block of a sum. Every thread needs spare rows: throws pairsum::error for a team
   /// larger than that of prepare().
   void begin_sum(const team& t) {
-    if (t.threads() > threads_)
-      throw error("prepared for " + std::to_string(threads_) + " threads, but to be summed on " +
-                  std::to_string(t.threads()));
+    check_prepared(threads_, t);
     rows_are_zero_ = false;
   }
 
