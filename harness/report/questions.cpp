@@ -103,6 +103,19 @@ void ask_twice(const json& summary, std::size_t series, json& out) {
                               yes ? "" : ", so half the evaluations is not half the time")}});
 }
 
+/// Values with what to say of each: of all, or, where they are too many to read, of the least and of the greatest.
+using said_values = std::vector<std::pair<double, std::string>>;
+std::string spread(const said_values& all) {
+  constexpr std::size_t readable = 8;
+  if (all.size() > readable) {
+    const auto [least, most] = std::ranges::minmax_element(all);
+    return fmt::format("from {} to {}, {} others between", least->second, most->second, all.size() - 2);
+  }
+  std::vector<std::string> texts;
+  for (const auto& [value, text] : all) texts.push_back(text);
+  return join(texts);
+}
+
 /// Does it scale as well as the naive sum, and as the machine?
 void ask_scaling(const json& summary, std::size_t series, json& out) {
   std::vector<json> entries = of_series(summary, "speedup", series);
@@ -110,19 +123,19 @@ void ask_scaling(const json& summary, std::size_t series, json& out) {
   std::erase_if(entries, [&](const json& e) { return e.at("threads") != threads; });
   if (entries.empty() || threads < 2) return;
   std::map<bool, std::vector<double>> by_kind;
-  std::vector<std::string> texts;
+  said_values speedups, shares;
   json machine = nullptr;
-  std::vector<std::string> shares;
   std::vector<double> in_rounds;
   for (const json& e : entries) {
     const std::string backend = word(e.at("backend")), name = backend + " " + cells(e) + variant(e, entries);
-    texts.push_back(fmt::format("{}: {}", name, with_bounds(e, "speedup")));
+    speedups.emplace_back(e.at("speedup"), fmt::format("{}: {}", name, with_bounds(e, "speedup")));
     if (backend.starts_with("naive")) by_kind[false].push_back(e.at("speedup"));
     if (backend.starts_with("symmetric") || backend.starts_with("tiles")) by_kind[true].push_back(e.at("speedup"));
     machine = e.at("machine_flops_scaling");
     if (e.at("of_machine").at("value").is_null()) continue;
     in_rounds.push_back(e.at("machine_speedup").at("value"));
-    shares.push_back(fmt::format("{}: {}", name, with_bounds(e.at("of_machine"), "value")));
+    const json& share = e.at("of_machine");
+    shares.emplace_back(share.at("value"), fmt::format("{}: {}", name, with_bounds(share, "value")));
   }
   if (by_kind.size() < 2) return;
   const auto range = [](std::vector<double> v) {
@@ -138,12 +151,12 @@ void ask_scaling(const json& summary, std::size_t series, json& out) {
       ++waits;
     }
   std::string text = fmt::format("On {} naive sums are {} times as fast as on one, symmetric sums {} times ({}).",
-                                 threads_text(threads), range(by_kind[false]), range(by_kind[true]), join(texts));
+                                 threads_text(threads), range(by_kind[false]), range(by_kind[true]), spread(speedups));
   if (!in_rounds.empty())
     text += fmt::format(
         " In the same rounds the machine itself made {} times as many multiply-adds; of that the sums reach (medians "
         "over rounds; above 1 where the two were disturbed differently): {}.",
-        range(in_rounds), join(shares));
+        range(in_rounds), spread(shares));
   else if (machine.is_number())
     text += fmt::format(" The machine itself does {:.2f} times as many multiply-adds.", machine.get<double>());
   if (waits > 0)

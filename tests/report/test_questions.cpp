@@ -109,6 +109,21 @@ TEST_F(questions_of, scaling_is_set_against_the_paces_of_the_rounds) {
   EXPECT_CONTAINS(text, "naive_omp M = 7: 1.00 [1.00, 1.00], symmetric_omp M = 7: 0.75 [0.75, 0.75].");
 }
 
+TEST_F(questions_of, scaling_of_many_backends_is_said_of_the_least_and_the_greatest) {
+  std::vector<made_point> timings;
+  for (const char* backend : {"naive_omp", "naive_tbb", "symmetric_omp", "symmetric_tbb", "tiles_omp", "colour4",
+                              "colour18", "sliced_locks", "atomic_add"}) {
+    timings.push_back({backend, 7, 1, 1.0});
+    const double speedup =
+        std::string(backend) == "atomic_add" ? 1.25 : 1.6 + 0.01 * static_cast<double>(timings.size());
+    timings.push_back({backend, 7, 2, 1.0 / speedup});
+  }
+  const std::string text = answer_to(summary_of(timings), "Does it scale");
+  EXPECT_CONTAINS(
+      text, "(from atomic_add M = 7: 1.25 [1.25, 1.25] to sliced_locks M = 7: 1.75 [1.75, 1.75], 7 others between)");
+  EXPECT_EQ(text.find("colour4"), std::string::npos) << text;
+}
+
 TEST_F(questions_of, which_M_is_said_of_as_many_threads) {
   const json s = summary_of({{"symmetric_omp", 6, 2, 0.5},
                              {"symmetric_omp", 7, 2, 0.4},
