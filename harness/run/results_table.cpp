@@ -48,7 +48,8 @@ double median_ms(const collected& c, std::optional<double> phases::*phase) {
 }  // namespace
 
 std::string words_of(const point& p) {
-  return fmt::format("{}, {}, {}, {}, order {}", p.precision, p.interaction, p.smoothing, p.integrator, p.order);
+  return fmt::format("{} {}D, H = {:.3g} dx, {}, {}, {}, {}, order {}", p.case_name, p.dim, p.H / p.dx, p.precision,
+                     p.interaction, p.smoothing, p.integrator, p.order);
 }
 
 std::string results_table(const std::vector<sample>& samples) {

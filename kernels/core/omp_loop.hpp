@@ -12,7 +12,8 @@ namespace pairsum {
 /// threads of the region call it; those who are done go on without waiting for the others.
 template <class Marks, class F>
 void omp_share(unsigned pass, std::size_t n, const granularity& g, Marks& marks, F&& f) {
-  const auto unit = [&](std::size_t k) {
+  // A function of its own, or each of the loops below would hold a copy of what it does.
+  const auto unit = [&](std::size_t k) __attribute__((noinline)) {
     mark_unit(marks, pass, k);
     f(k);
   };

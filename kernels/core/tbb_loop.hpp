@@ -16,7 +16,7 @@ template <class Marks, class F>
 void tbb_pass(unsigned pass, std::size_t begin, std::size_t end, const granularity& g, Marks& marks, F&& f) {
   using range = ::tbb::blocked_range<std::size_t>;
   const range all(begin, end, g.chunk);
-  const auto piece = [&](const range& r) {
+  const auto piece = [&](const range& r) __attribute__((noinline)) {  // for the reason told in omp_loop.hpp
     const int thread = ::tbb::this_task_arena::current_thread_index();
     marks.work_begins(pass, thread);
     for (std::size_t k = r.begin(); k < r.end(); ++k) {

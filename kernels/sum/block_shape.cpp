@@ -42,8 +42,9 @@ block_shape block_shape::parse(const std::string& word) {
 }
 
 std::string block_shape::word() const {
-  std::string w = std::string(shape_names[static_cast<std::size_t>(axes) - 1]) + ":" + std::to_string(width);
-  if (order != cell_order::rows) w += ":" + std::string(order_names[static_cast<std::size_t>(order)]);
+  std::string w(shape_names[static_cast<std::size_t>(axes) - 1]);
+  w.append(":").append(std::to_string(width));
+  if (order != cell_order::rows) w.append(":").append(order_names[static_cast<std::size_t>(order)]);
   return w;
 }
 

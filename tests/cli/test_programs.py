@@ -192,7 +192,7 @@ def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
     assert len(points) == len({json.dumps(p, sort_keys=True) for p in points}) == 2 * 3 * 2 * formulas * len(precisions)
     assert {p["smoothing"] for p in points if p["interaction"] == "count"} == {"none"}
     assert schema_errors(out) == []
-    for words in [f"double, {listed['interactions'][-1]}", "rk4, order shuffled"]:
+    for words in ["random_clustered 3D, H = 2 dx", f"double, {listed['interactions'][-1]}", "rk4, order shuffled"]:
         assert words in done.stdout
     assert pairsum("report", out).returncode == 0
 
