@@ -41,7 +41,7 @@ TABLES = (
     ("strategy_ladder", "What they cost", "Ratio: time of the base, on as many threads or fewer, / time, of prepare, zero, "
      "sum and reduce together. Over serial: time on 1 thread / that of sphysics_sweep on the same cells, the price of "
      "keeping apart threads that are not there. Efficiency: speedup over own 1 thread / threads. Wait: share of the threads' "
-     "time in the passes spent at barriers. Extra memory: held by the backend beyond the leanest of the ladder.",
+     "time in the passes spent at barriers and for locks. Extra memory: held by the backend beyond the leanest of the ladder.",
      [("world", key("world"), TEXT), ("ladder", _at, TEXT), ("rank", key("rank"), NUMBER), ("backend", key("backend"), TEXT),
       ("M", key("M"), NUMBER), ("threads", key("threads"), NUMBER), *TIME, ("base", key("base_backend"), TEXT),
       ("base [ms]", key("base_time_s", 1e3), NUMBER), *RATIO, *VERDICT, ("over serial", _nested("over_serial"), NUMBER),

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include "core/isa.hpp"
@@ -96,17 +97,28 @@ void fill_in_defaults(run_request& q, const verify_options& o) {
   if (o.dx.empty()) q.dx = {q.dim == 1 ? 0.0005 : q.dim == 2 ? 0.01 : 0.04};
 }
 
-/// Of the M that nobody asked for, a periodic box has those whose torus closes where it does, for all the backends.
-void leave_out_M_that_do_not_fit(run_request& q, const initial_condition& c) {
-  if (!c.periodic) return;
-  double skin = 0;
-  for (const std::string& b : q.backends) skin = std::max(skin, registry::instance().find_backend(b).traits.skin);
-  setup s = with_skin(setup_of(c), skin);
-  s.grid = "hashed_grid";
-  std::erase_if(q.M, [&](int M) {
-    s.M = M;
-    return !grid_fits(s);
-  });
+/// Of the M that nobody asked for, a periodic box has those whose torus closes where it does. Which these are depends
+/// on a backend's skin: returns the request in parts, of backends that take the same M.
+std::vector<run_request> parts_with_M_that_fit(const run_request& q, const initial_condition& c) {
+  if (!c.periodic) return {q};
+  std::map<std::vector<int>, std::vector<std::string>> backends;
+  for (const std::string& b : q.backends) {
+    setup s = with_skin(setup_of(c), registry::instance().find_backend(b).traits.skin);
+    s.grid = "hashed_grid";
+    std::vector<int> fitting = q.M;
+    std::erase_if(fitting, [&](int M) {
+      s.M = M;
+      return !grid_fits(s);
+    });
+    backends[fitting].push_back(b);
+  }
+  std::vector<run_request> parts;
+  for (const auto& [M, those] : backends) {
+    parts.push_back(q);
+    parts.back().M = M;
+    parts.back().backends = those;
+  }
+  return parts;
 }
 
 int verify(const verify_options& o) {
@@ -153,8 +165,8 @@ int verify(const verify_options& o) {
         run_request here = q;
         here.dx = {dx};
         here.states = {state};
-        if (!o.all_M) leave_out_M_that_do_not_fit(here, c);
-        verify_all(r, c, verify_plan_of(here, r), [&](const verify_line& l) { lines.add(l); });
+        for (const run_request& part : o.all_M ? std::vector{here} : parts_with_M_that_fit(here, c))
+          verify_all(r, c, verify_plan_of(part, r), [&](const verify_line& l) { lines.add(l); });
         made += lines.made;
         failed += lines.failed;
       }

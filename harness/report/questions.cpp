@@ -6,6 +6,7 @@
 
 #include "core/names.hpp"
 #include "harness/report/answer.hpp"
+#include "harness/report/ladders.hpp"
 #include "harness/report/self_tests.hpp"
 #include "harness/report/text_table.hpp"
 
@@ -129,8 +130,7 @@ void ask_scaling(const json& summary, std::size_t series, json& out) {
   for (const json& e : entries) {
     const std::string backend = word(e.at("backend")), name = backend + " " + cells(e) + variant(e, entries);
     speedups.emplace_back(e.at("speedup"), fmt::format("{}: {}", name, with_bounds(e, "speedup")));
-    if (backend.starts_with("naive")) by_kind[false].push_back(e.at("speedup"));
-    if (backend.starts_with("symmetric") || backend.starts_with("tiles")) by_kind[true].push_back(e.at("speedup"));
+    if (const backend_traits* const t = traits_of(backend)) by_kind[t->symmetric].push_back(e.at("speedup"));
     machine = e.at("machine_flops_scaling");
     if (e.at("of_machine").at("value").is_null()) continue;
     in_rounds.push_back(e.at("machine_speedup").at("value"));
@@ -150,7 +150,7 @@ void ask_scaling(const json& summary, std::size_t series, json& out) {
       waiting += p.at("passes").at("wait_share").get<double>();
       ++waits;
     }
-  std::string text = fmt::format("On {} naive sums are {} times as fast as on one, symmetric sums {} times ({}).",
+  std::string text = fmt::format("On {} gathers are {} times as fast as on one, symmetric sums {} times ({}).",
                                  threads_text(threads), range(by_kind[false]), range(by_kind[true]), spread(speedups));
   if (!in_rounds.empty())
     text += fmt::format(

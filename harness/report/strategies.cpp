@@ -20,8 +20,8 @@ json estimate(const ratio_estimate& r, double by = 1) {
   return e;
 }
 
-/// What keeping threads apart costs where there are none to keep apart: time on one thread over that of the serial
-/// sweep on the same cells. Null for other numbers of threads.
+/// What keeping threads apart costs where there are none to keep apart (locks and copies per thread are not there
+/// then): time on one thread over that of the serial sweep on the same cells. Null for other numbers of threads.
 json over_serial(const measurements& all, const rung& own) {
   if (own.p->point.threads != 1) return nullptr;
   const std::string serial = "sphysics_sweep";

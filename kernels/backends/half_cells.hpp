@@ -61,8 +61,7 @@ struct half_cells {
 #pragma omp parallel num_threads(t.threads())
       for (unsigned colour = 0; colour < blocks.colours(); ++colour)
         omp_pass(colour, blocks.size(colour), g, probe, [&](std::size_t k) {
-          if (k + 2 < blocks.size(colour)) order.fetch_ranges(*blocks(colour, k + 2).cells);
-          if (k + 1 < blocks.size(colour)) fetch_block(p, blocks(colour, k + 1));
+          fetch_next(p, colour, k);
           sum_half_block(p, blocks(colour, k), probe);
         });
     }
@@ -124,8 +123,8 @@ struct half_cells {
       }
     }
 
-    /// scatter_one() for number i of the order, with ranges of such numbers. Most find nobody in reach: particle i is
-    /// not looked at before somebody is.
+    /// scatter_one() for number i of the order, with ranges of such numbers. Most find nobody in reach: of fluid
+    /// candidates one must be, before particle i is looked at.
     template <class Probe>
     [[gnu::always_inline]] void scatter(const problem<I>& p, std::uint32_t i, const range_of_members& fluid,
                                         const range_of_members& boundary, Probe& probe) {
@@ -169,8 +168,11 @@ struct half_cells {
       }
     }
 
-    /// Asks for the particles of a block that is due soon.
-    PAIRSUM_SAME_CODE void fetch_block(const problem<I>& p, const typename half_blocks<D>::unit& b) const {
+    /// Asks for the particles of the block after number k, and for where those of a later one are.
+    PAIRSUM_SAME_CODE void fetch_next(const problem<I>& p, unsigned colour, std::size_t k) const {
+      if (k + 2 < blocks.size(colour)) order.fetch_ranges(*blocks(colour, k + 2).cells);
+      if (k + 1 >= blocks.size(colour)) return;
+      const typename half_blocks<D>::unit b = blocks(colour, k + 1);
       for (const std::uint32_t cell : *b.cells) fetch_columns<true>(p, cell);
       for (unsigned row = 0; row < members; row += 3) {
         const auto [cell, part] = pattern::half_block_place<D>[b.part][row];

@@ -11,8 +11,8 @@
 //   | 0 0 0 0 |
 //
 // Race-free: a slab writes to its layers and to the one after them (half stencil); the next slab of its colour begins
-// at least two layers further on. Where the grid closes on itself there is an even number of slabs, of two layers or
-// three (sum/slab_colours.hpp). Neither slabs nor their order depend on the threads: bit-identical.
+// at least two layers further on. Where the grid closes on itself there is an even number of slabs, some a
+// layer thicker (sum/slab_colours.hpp). Neither slabs nor their order depend on the threads: bit-identical.
 #include "core/omp_loop.hpp"
 #include "sum/backend.hpp"
 #include "sum/slab_colours.hpp"

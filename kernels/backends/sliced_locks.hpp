@@ -48,8 +48,13 @@ struct sliced_workspace {
     probe.pass_begins(0);
 #pragma omp parallel num_threads(t.threads())
     omp_pass(0, slabs.size(), g, probe, [&](std::size_t k) {
+      const auto wait = [&probe, thread = omp_get_thread_num()](auto&& until_free) {  // no work, for who observes
+        probe.work_ends(0, thread);
+        until_free();
+        probe.work_begins(0, thread);
+      };
       for (const stretch& s : slabs[k]) {
-        const typename Locks::guard held(locks, s.low, s.high);
+        const typename Locks::guard held(locks, s.low, s.high, wait);
         sweep_cells(p, s.begin, s.end, probe);
       }
     });

@@ -20,6 +20,18 @@
 
 namespace pairsum {
 
+/// Counts cells alone: the tests that count are those of a sum, which makes no list as a rule.
+template <class Probe>
+struct listing_probe {
+  static constexpr bool counting = Probe::counting;
+  Probe& probe;
+  void sumF1(std::uint64_t n) { probe.sumF1(n); }
+  void sumF2(std::uint64_t n) { probe.sumF2(n); }
+  void tested(std::uint64_t) {}
+  void fluid_pairs(std::uint64_t) {}
+  void boundary_pairs(std::uint64_t) {}
+};
+
 struct verlet_list {
   static constexpr backend_traits traits{
       .name = "verlet_list",
@@ -47,8 +59,10 @@ struct verlet_list {
 
     /// Does the list still name every pair in reach? The particles must be those, in the order, of the last prepare().
     bool outlasts(const problem<I>& p, const team& t) const {
-      // 2 % of the half are for rounding.
-      return serves_ && moved_.at_most(real(0.49 * traits.skin) * reach(p), p.x, p.fluid_count, t);
+      if (!serves_) return false;
+      // 2 % of the half are for rounding, and what a difference through the faces of a periodic box is rounded by.
+      const real limit = real(0.49 * traits.skin) * reach(p) - 2 * p.x.omega.rounding();
+      return limit > 0 && moved_.at_most(limit, p.x, p.fluid_count, t);
     }
     /// The particles are, or may be, others, or in another order.
     void expire() { serves_ = false; }
@@ -78,18 +92,6 @@ struct verlet_list {
     }
 
    private:
-    /// Counts cells alone: the tests that count are those of a sum, which makes no list as a rule.
-    template <class Probe>
-    struct listing_probe {
-      static constexpr bool counting = Probe::counting;
-      Probe& probe;
-      void sumF1(std::uint64_t n) { probe.sumF1(n); }
-      void sumF2(std::uint64_t n) { probe.sumF2(n); }
-      void tested(std::uint64_t) {}
-      void fluid_pairs(std::uint64_t) {}
-      void boundary_pairs(std::uint64_t) {}
-    };
-
     static real reach(const problem<I>& p) { return std::sqrt(p.reach2); }
 
     row_blocks<I> listed_;

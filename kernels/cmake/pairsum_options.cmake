@@ -14,6 +14,9 @@ if(PAIRSUM_NATIVE)
   target_compile_options(pairsum_options INTERFACE -march=native)
 endif()
 
+# g++ tidies up its memory each time it has grown by 128 MB, a twentieth of the time of a source that takes a GB.
+add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
+
 # For code that is never timed: it compiles in half the time.
 add_library(pairsum_cold INTERFACE)
 target_compile_options(pairsum_cold INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-O1> $<$<CONFIG:Dev,Asan>:-O0>)

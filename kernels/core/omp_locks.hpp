@@ -25,11 +25,13 @@ class omp_locks {
     for (; size_ < n; ++size_) omp_init_lock(&lock_[size_]);
   }
 
-  /// Holds up to two locks, taken in the order given; -1: none.
+  /// Holds up to two locks, taken in the order given; -1: none. For one that another thread holds it calls wait(f),
+  /// which calls f(), which returns when the lock is free.
   class guard {
    public:
-    guard(omp_locks& locks, std::int32_t first, std::int32_t second)
-        : first_(locks.take(first)), second_(locks.take(second)) {}
+    template <class Wait>
+    guard(omp_locks& locks, std::int32_t first, std::int32_t second, Wait&& wait)
+        : first_(locks.take(first, wait)), second_(locks.take(second, wait)) {}
     guard(const guard&) = delete;
     guard& operator=(const guard&) = delete;
     ~guard() {
@@ -42,10 +44,12 @@ class omp_locks {
   };
 
  private:
-  omp_lock_t* take(std::int32_t k) {
+  template <class Wait>
+  omp_lock_t* take(std::int32_t k, Wait&& wait) {
     if (k < 0) return nullptr;
-    omp_set_lock(&lock_[static_cast<std::size_t>(k)]);
-    return &lock_[static_cast<std::size_t>(k)];
+    omp_lock_t* const lock = &lock_[static_cast<std::size_t>(k)];
+    if (omp_test_lock(lock) == 0) wait([&] { omp_set_lock(lock); });
+    return lock;
   }
   void destroy() {
     for (; size_ > 0; --size_) omp_destroy_lock(&lock_[size_ - 1]);

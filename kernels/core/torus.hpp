@@ -39,6 +39,8 @@ struct torus {
     for (int d = 0; d < D; ++d) near = near || !(x[d] >= inner_low[d] && x[d] <= inner_high[d]);
     return near;
   }
+  /// At most how much a way through the faces differs by rounding, m; 0 without periodic faces.
+  R rounding() const { return periodic ? std::numeric_limits<R>::epsilon() * edge.maxCoeff() : R(0); }
   /// Makes r the shortest of the ways that are r but for whole edges, |r| being at most an edge per component.
   [[gnu::always_inline]] void shorten(vec<D, R>& r) const {
     for (int d = 0; d < D; ++d) r[d] -= r[d] > half[d] ? edge[d] : r[d] < -half[d] ? -edge[d] : R(0);

@@ -10,7 +10,7 @@
 /// cells at once, more than processors foresee: the talk's passes over a million particles take 1.4 times as long
 /// without. Now and then what comes next in a list is another thread's.
 ///
-/// Functions that do nothing else have no effect for g++, which leaves out their calls. So all are inlined into two
+/// Functions that do nothing else have no effect for g++, which leaves out their calls. So all are inlined into a few
 /// that compilers may not look into.
 namespace pairsum {
 

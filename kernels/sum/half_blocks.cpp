@@ -1,6 +1,10 @@
 #include "sum/half_blocks.hpp"
 
+#include <limits>
+#include <string>
 #include <utility>
+
+#include "core/error.hpp"
 
 namespace pairsum {
 
@@ -38,6 +42,9 @@ void half_blocks<D>::build(const cells<D>& c, const team& t) {
   });
   std::size_t total = 0;
   for (std::size_t& n : next_block) total += std::exchange(n, total);
+  if (total > std::numeric_limits<std::uint32_t>::max() / parts)
+    throw error("half_cells numbers at most 2^32 blocks of half cells, here there are " +
+                std::to_string(total * parts));
   blocks_.resize(total);
   by_colour_.resize(colours);
   for (unsigned colour = 0; colour < colours; ++colour) {

@@ -31,16 +31,16 @@ class half_cell_order {
 
   /// Asks memory for where the parts of cells are.
   template <class Cells>
-  void fetch_ranges(const Cells& cells) const {
+  [[gnu::always_inline]] void fetch_ranges(const Cells& cells) const {
     for (const std::uint32_t cell : cells) {
-      __builtin_prefetch(&range_[cell * parts]);
-      __builtin_prefetch(&range_[cell * parts + parts - 1]);
+      __builtin_prefetch(range_.data() + cell * parts);
+      __builtin_prefetch(range_.data() + cell * parts + parts - 1);
     }
   }
   /// Asks memory for the positions that begin a range, and for which particles are there.
-  void fetch(const cell_range& range) const {
-    __builtin_prefetch(&order_[range.fluid_begin]);
-    for (const auto& column : x_) __builtin_prefetch(&column[range.fluid_begin]);
+  [[gnu::always_inline]] void fetch(const cell_range& range) const {
+    __builtin_prefetch(order_.data() + range.fluid_begin);
+    for (const auto& column : x_) __builtin_prefetch(column.data() + range.fluid_begin);
   }
 
  private:

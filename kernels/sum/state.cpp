@@ -1,16 +1,34 @@
 #include "sum/state.hpp"
 
 #include <cmath>
+#include <string>
 
+#include "core/error.hpp"
+#include "core/names.hpp"
 #include "grid/cell_scale.hpp"
 #include "sum/check.hpp"
 #include "sum/grids.hpp"
 
 namespace pairsum {
+namespace {
+
+/// A grid of cells that are wider by a skin; says so where that is what does not fit.
+template <int D, class R>
+std::unique_ptr<grid<D, R>> grid_with_skin(const setup& s, double skin) {
+  try {
+    return make_grid<D, R>(with_skin(s, skin));
+  } catch (const error& e) {
+    if (skin == 0) throw;
+    throw error(std::string(e.what()) + " (backend " + s.backend + " takes the support radius and a skin of " +
+                number_text(skin) + " H for one)");
+  }
+}
+
+}  // namespace
 
 template <int D, class R>
 state<D, R>::state(const setup& s, double skin)
-    : setup_((check_world(s), s)), index_(make_box<D, R>(s), make_grid<D, R>(with_skin(s, skin))) {}
+    : setup_((check_world(s), s)), index_(make_box<D, R>(s), grid_with_skin<D, R>(s, skin)) {}
 
 template <int D, class R>
 state<D, R>::~state() = default;

@@ -17,7 +17,7 @@ void configure(W& workspace, const setup& s) {
 template <class B, int D, class R>
 work_counts count_work_of(const particle_set<D, R>& p, const indexer<D, R>& index, const setup& s) {
   using I = count<D, R>;
-  interaction_columns<I> columns(s.constants, make_torus<D, R>(s));
+  interaction_columns<I> columns(s.constants, make_torus<D, R>(s, B::traits.skin));
   const team alone;
   columns.derive(p, index.fluid(), index.boundary(), alone);
   columns.zero_rates(alone);

@@ -5,8 +5,11 @@
 namespace pairsum {
 namespace {
 
-/// Enough pieces for many threads, but few, as neighbouring ones share a layer of cells.
-std::size_t pieces_for(std::size_t fluid) { return std::clamp<std::size_t>(fluid / 4096, 1, 64); }
+/// Enough pieces for many threads, but few, as neighbouring ones share a layer of cells. A few particles are four
+/// pieces.
+std::size_t pieces_for(std::size_t fluid) {
+  return std::clamp<std::size_t>(fluid / 4096, std::clamp<std::size_t>(fluid / 256, 1, 4), 64);
+}
 
 }  // namespace
 

@@ -192,7 +192,10 @@ struct traced_locks {
   void resize(std::size_t) {}
   struct guard {
     columns_trace* trace;
-    guard(traced_locks& locks, std::int32_t low, std::int32_t high) : trace(locks.trace) { trace->locks(low, high); }
+    template <class Wait>
+    guard(traced_locks& locks, std::int32_t low, std::int32_t high, Wait&&) : trace(locks.trace) {
+      trace->locks(low, high);
+    }
     ~guard() { trace->locks(-1, -1); }
   };
 };

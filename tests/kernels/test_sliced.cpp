@@ -1,6 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <memory>
+#include <thread>
+
 #include "any_world.hpp"
+#include "core/omp_locks.hpp"
 
 // The backends that cut the world into slabs or tasks, where it can hardly be cut: fewer layers than threads, rings of
 // four layers, few particles, a team other than the one that prepared.
@@ -74,6 +79,27 @@ TEST_P(sliced_test, follow_particles_that_move) {
       EXPECT_EQ(sum->rates().columns, evaluated(with(s.world, "naive", 3, "count"), s.particles)->rates().columns) << n;
     }
   }
+}
+
+TEST(omp_locks, say_who_waits) {
+  omp_locks locks;
+  locks.resize(2);
+  std::atomic<int> waits = 0, taken = 0;
+  const auto wait = [&](auto&& until_free) {
+    ++waits;
+    until_free();
+    ++taken;
+  };
+  { const omp_locks::guard free(locks, 0, 1, wait); }
+  EXPECT_EQ(waits, 0);
+  auto held = std::make_unique<omp_locks::guard>(locks, 0, 1, wait);
+  std::thread other([&] { const omp_locks::guard later(locks, -1, 1, wait); });
+  while (waits == 0) std::this_thread::yield();
+  EXPECT_EQ(taken, 0) << "it is held";
+  held.reset();
+  other.join();
+  EXPECT_EQ(waits, 1);
+  EXPECT_EQ(taken, 1);
 }
 
 }  // namespace

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "backends/colour18.hpp"
 #include "backends/colour4.hpp"
 #include "backends/half_cells.hpp"
 #include "backends/pair_list_omp.hpp"
 #include "backends/sliced_2colour.hpp"
 #include "backends/symmetric_omp.hpp"
+#include "backends/task_conflicts.hpp"
 #include "scene.hpp"
 #include "sum/grids.hpp"
 #include "sum/setup_of.hpp"
@@ -81,6 +84,47 @@ TYPED_TEST(units_test, of_a_pass_write_different_particles) {
   units_of_a_pass_write_different_particles<TypeParam, 1>();
   units_of_a_pass_write_different_particles<TypeParam, 2>();
   units_of_a_pass_write_different_particles<TypeParam, 3>();
+}
+
+/// Of two tasks that write to one particle one waits for the other; and of those that need not, many do not.
+template <int D>
+void tasks_that_write_to_one_particle_conflict() {
+  std::size_t meetings = 0, apart = 0;
+  for (const world& w : worlds<D>())
+    for (const grid_choice& grid : w.grids)
+      for (const char* block : {"slab:2", "brick:2"}) {
+        const initial_condition start = make_case(w.name, {.dim = D, .dx = w.dx, .state = "perturbed"});
+        scene s{start.particles, with(setup_of(start), "task_conflicts", grid)};
+        s.world.block = block;
+        const indexed<D> i(s, s.world);
+        trace_units<task_conflicts, D>(
+            i.particles, i.index, s.world, [&](const auto& p, const auto& workspace, const auto& trace) {
+              const auto edges = conflicts_of(p.cells(), workspace.blocks);
+              const std::set<block_pair> waits(edges.begin(), edges.end());
+              std::vector<std::vector<std::size_t>> writers(p.fluid_count);
+              const auto& units = trace.passes.at(0);
+              ASSERT_EQ(units.size(), workspace.blocks.size(0)) << "every task runs once";
+              for (std::size_t u = 0; u < units.size(); ++u)
+                for (const std::uint32_t particle : units[u]) writers[particle].push_back(trace.numbers[u]);
+              for (const auto& those : writers)
+                for (const std::size_t a : those)
+                  for (const std::size_t b : those)
+                    if (a < b) {
+                      ++meetings;
+                      EXPECT_TRUE(waits.contains({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)}))
+                          << D << "D " << w.name << " " << w.dx << " " << grid << " " << block << ": " << a << ", "
+                          << b;
+                    }
+              apart += units.size() * (units.size() - 1) / 2 - waits.size();
+            });
+      }
+  EXPECT_GT(meetings, 0u);
+  EXPECT_GT(apart, 0u);
+}
+TEST(units_of_tasks, that_write_to_one_particle_wait_for_each_other) {
+  tasks_that_write_to_one_particle_conflict<1>();
+  tasks_that_write_to_one_particle_conflict<2>();
+  tasks_that_write_to_one_particle_conflict<3>();
 }
 
 /// Without a seam there are the colours that give a backend its name.

@@ -3,6 +3,7 @@
 #include "backends/verlet_list.hpp"
 #include "integrators/integrator.hpp"
 #include "interactions/count.hpp"
+#include "periodic_box.hpp"
 #include "scene.hpp"
 #include "sum/setup_of.hpp"
 #include "sum/summation_of.hpp"
@@ -104,6 +105,106 @@ TEST_F(kept_list, has_pairs_that_come_into_reach) {
   list.evaluate(team());
   EXPECT_EQ(list.inner().lists_made(), made);
   EXPECT_EQ(list.rates().columns[0][0], 1.0);
+}
+
+/// Random particles in a periodic box of 5.3 H, of which many pairs lie apart by more than H through a face.
+class periodic_list : public testing::Test {
+ protected:
+  scene s = make_periodic(box());
+  static cloud box() {
+    cloud c;
+    c.dim = 3;
+    c.fluid = 1500;
+    c.H = 0.125;
+    c.length = 5.3;
+    return c;
+  }
+  /// Pairs of fluid nearer than `reach`.
+  std::uint64_t pairs_within(double reach) const {
+    const particle_table& p = s.particles;
+    std::uint64_t n = 0;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        double square = 0;
+        for (std::size_t d = 0; d < 3; ++d) {
+          const double edge = s.world.omega_high[d] - s.world.omega_low[d], r = p.x[d][i] - p.x[d][j];
+          square += std::pow(r - edge * std::round(r / edge), 2);
+        }
+        n += square < reach * reach;
+      }
+    return n;
+  }
+};
+
+TEST_F(periodic_list, its_tests_are_the_pairs_in_reach_of_the_skin) {
+  const double H = s.world.constants.H, far = H * (1 + verlet_list::traits.skin);
+  const work_counts n =
+      evaluated(with(s.world, "verlet_list", grid_choice("compact_grid", 0), "count"), s.particles)->count_work();
+  EXPECT_EQ(n.pairs_tested, pairs_within(far));
+  EXPECT_EQ(n.pairs_fluid_fluid, pairs_within(H));
+  EXPECT_GT(n.pairs_tested, n.pairs_fluid_fluid);
+}
+
+/// Everything drifts through the faces, slowly enough for lists to serve some steps.
+TEST_F(periodic_list, serves_while_particles_go_through_the_faces) {
+  const setup world = with(s.world, "verlet_list", grid_choice("compact_grid", 0), "count");
+  counting_list list(world);
+  list.load(s.particles, {});
+  const double step = 0.2 * verlet_list::traits.skin * world.constants.H;  // two fit into half the skin
+  const int steps = 40;
+  for (int k = 0; k < steps; ++k) {
+    auto& set = list.particles();
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const double by = set.id[i] % 2 == 0 ? step : -step;
+      set.x[0][i] += by;
+      s.particles.x[0][set.id[i]] += by;
+    }
+    list.evaluate(team());
+    particle_table now = s.particles;  // in the box
+    for (double& x : now.x[0]) {
+      const double edge = world.omega_high[0] - world.omega_low[0];
+      x = world.omega_low[0] + std::fmod(std::fmod(x - world.omega_low[0], edge) + edge, edge);
+    }
+    const auto fresh = evaluated(with(world, "naive", grid_choice("compact_grid", 0), "count"), now);
+    ASSERT_EQ(list.rates().columns, fresh->rates().columns) << "step " << k;
+    ASSERT_EQ(list.lost(), 0u);
+  }
+  EXPECT_LT(list.inner().lists_made(), static_cast<std::size_t>(steps) / 2 + 5);
+  EXPECT_GT(list.inner().lists_made(), 5u);
+}
+
+/// A box so wide that floats beside its faces are coarse against the skin: no list may be trusted.
+TEST(verlet_list_in_float, is_made_anew_where_rounding_is_as_wide_as_the_skin) {
+  using coarse = count<2, float>;
+  scene s = placed(2, {40000, 40000, 0}, 1, 2, [](std::size_t i) {
+    return std::array<double, 3>{i == 0 ? 0.5 : 39999.5, 7, 0};
+  });
+  setup world = with(s.world, "verlet_list", grid_choice("compact_grid", 0), "count");
+  world.precision = "float";
+  summation_of<verlet_list, coarse> list(world);
+  list.load(s.particles, {});
+  list.evaluate(team());
+  list.evaluate(team());
+  EXPECT_EQ(list.inner().lists_made(), 1u) << "wide, but resolved";
+  s.world.omega_high = {4e6, 4e6};
+  s.particles.x[0][1] = 4e6 - 0.5;
+  world.omega_high = s.world.omega_high;
+  summation_of<verlet_list, coarse> wide(world);
+  wide.load(s.particles, {});
+  wide.evaluate(team());
+  wide.evaluate(team());
+  EXPECT_EQ(wide.inner().lists_made(), 2u);
+}
+
+TEST(verlet_list, that_does_not_fit_into_a_periodic_box_says_that_it_needs_room_for_its_skin) {
+  const scene s = placed(2, {4, 4, 0}, 1, 1, [](std::size_t) { return std::array<double, 3>{1, 1, 0}; });
+  const auto refusal = [&](const char* backend) {
+    return error_of(
+        [&] { (void)registry::instance().make_summation(with(s.world, backend, grid_choice("compact_grid", 0))); });
+  };
+  EXPECT_EQ(refusal("pair_list_omp"), "");
+  EXPECT_TRUE(says(refusal("verlet_list"), {"backend verlet_list takes the support radius and a skin of 0.1 H"}))
+      << refusal("verlet_list");
 }
 
 }  // namespace

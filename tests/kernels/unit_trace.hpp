@@ -38,13 +38,13 @@ class watched_rates {
 
 /// Notes at the beginning of each unit what changed in the one before.
 template <class I>
-class unit_trace : public pass_marks {
+class unit_trace : public no_probe {
  public:
-  static constexpr bool counting = false;
   explicit unit_trace(const problem<I>& p) : rates_(p.u, p.fluid_count) {}
 
-  void unit_begins(unsigned pass, std::size_t) {
+  void unit_begins(unsigned pass, std::size_t k) {
     close();
+    numbers.push_back(k);
     passes[pass].emplace_back();
     open_ = &passes[pass].back();
   }
@@ -54,25 +54,20 @@ class unit_trace : public pass_marks {
     if (open_ != nullptr) *open_ = changed;
     open_ = nullptr;
   }
-  void sumF1(std::uint64_t) {}
-  void sumF2(std::uint64_t) {}
-  void tested(std::uint64_t) {}
-  void fluid_pairs(std::uint64_t) {}
-  void boundary_pairs(std::uint64_t) {}
-  void evaluated(std::uint64_t) {}
-  void pairs_of_one(std::uint64_t) {}
 
   std::map<unsigned, written_by_unit> passes;
+  std::vector<std::size_t> numbers;  ///< of all units, as they came
 
  private:
   watched_rates<I> rates_;
   std::vector<std::uint32_t>* open_ = nullptr;
 };
 
-/// What the units of backend B write to when all candidates interact, however far they are.
-template <class B, int D>
-std::map<unsigned, written_by_unit> units_of(const particle_set<D, double>& particles, const indexer<D, double>& index,
-                                             const setup& s) {
+/// What the units of backend B write to when all candidates interact, however far they are; `look(p, workspace, trace)`
+/// sees it.
+template <class B, int D, class Look>
+void trace_units(const particle_set<D, double>& particles, const indexer<D, double>& index, const setup& s,
+                 Look&& look) {
   using I = count<D, double>;
   interaction_columns<I> columns(s.constants, make_torus<D, double>(s));
   const team alone;
@@ -88,7 +83,16 @@ std::map<unsigned, written_by_unit> units_of(const particle_set<D, double>& part
     workspace.sum(p, one, trace);
   });
   trace.close();
-  return trace.passes;
+  look(p, workspace, trace);
+}
+
+/// The units of each pass.
+template <class B, int D>
+std::map<unsigned, written_by_unit> units_of(const particle_set<D, double>& particles, const indexer<D, double>& index,
+                                             const setup& s) {
+  std::map<unsigned, written_by_unit> passes;
+  trace_units<B, D>(particles, index, s, [&](const auto&, const auto&, const auto& trace) { passes = trace.passes; });
+  return passes;
 }
 
 /// Particles that two units of a pass write to.

@@ -77,7 +77,8 @@ struct one_colour {
 /// Nothing is locked where two slabs meet.
 struct no_locks {
   struct guard {
-    guard(no_locks&, std::int32_t, std::int32_t) {}
+    template <class Wait>
+    guard(no_locks&, std::int32_t, std::int32_t, Wait&&) {}
     ~guard() {}
   };
   void resize(std::size_t) {}
