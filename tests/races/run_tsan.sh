@@ -32,4 +32,5 @@ cmake --build "$build" --target race_main >"$build/build.log" 2>&1 || {
   grep -E 'error|FAILED' "$build/build.log" || cat "$build/build.log"
   exit 1
 }
-ctest --test-dir "$build" --output-on-failure --no-tests=error
+# Two at a time: each has four threads, which take turns for most of the time.
+ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel 8
