@@ -41,7 +41,8 @@ constexpr tune_option tune_options[] = {
     {"seed", "1", "of the perturbation, of random places and of the order of measuring"},
     {"backend", "all", "backends to choose from, a list, or all"},
     {"grid", "all", "grids to choose from, a list, or all"},
-    {"M", "6,7,8", "hash sizes to choose from, like 6,7 or 5..9"},
+    {"M", "6,7,8",
+     "hash sizes to choose from, like 6,7 or 5..9; of the default a periodic box takes those that go round it"},
     {"isa", "best", "instruction sets to choose from, for vector backends; all: of this build and machine"},
     {"block", "auto", "blocks to choose from, for backends that have some: auto, slab:4, ..."},
     {"precision", "double", "working precisions to choose from; what each costs in accuracy: docs/accuracy.md"},
@@ -114,6 +115,7 @@ void add_tune_command(CLI::App& app, action& chosen) {
   for (const tune_option& option : tune_options)
     command->add_option(std::string("--") + option.key, o->levels[option.key] = option.standard, option.what)
         ->capture_default_str();
+  const CLI::Option* const M = command->get_option("--M");
   command->add_option("--budget", o->request.budget_s, "seconds for everything, particles and reference included")
       ->capture_default_str();
   command->add_option("--phase", o->request.phase, "what is to be fast: total (a whole step) or sum (alone)")
@@ -127,8 +129,9 @@ void add_tune_command(CLI::App& app, action& chosen) {
       "  pairsum tune --dx 0.012                           a minute\n"
       "  pairsum tune --dx 0.00594 --budget 180 --save talk.profile.json\n"
       "  pairsum run --profile talk.profile.json");
-  command->callback([&chosen, o, save] {
+  command->callback([&chosen, o, save, M] {
     const bool given = save->count() > 0;
+    o->request.every_M = M->count() > 0;
     chosen = [o, given] { return start_tuning(*o, given); };
   });
 }

@@ -103,13 +103,8 @@ std::vector<run_request> parts_with_M_that_fit(const run_request& q, const initi
   if (!c.periodic) return {q};
   std::map<std::vector<int>, std::vector<std::string>> backends;
   for (const std::string& b : q.backends) {
-    setup s = with_skin(setup_of(c), registry::instance().find_backend(b).traits.skin);
-    s.grid = "hashed_grid";
     std::vector<int> fitting = q.M;
-    std::erase_if(fitting, [&](int M) {
-      s.M = M;
-      return !grid_fits(s);
-    });
+    std::erase_if(fitting, [&](int M) { return !M_fits(M, b, c, registry::instance()); });
     backends[fitting].push_back(b);
   }
   std::vector<run_request> parts;

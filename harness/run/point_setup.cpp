@@ -2,6 +2,7 @@
 
 #include "harness/environment/machine.hpp"
 #include "harness/plan/plan.hpp"
+#include "sum/grids.hpp"
 #include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
@@ -33,6 +34,13 @@ setup named(const point& p, setup s, const registry& all) {
 
 setup setup_of_point(const point& p, const initial_condition& c, const registry& all) {
   return named(p, setup_of(c), all);
+}
+
+bool M_fits(int M, const std::string& backend, const initial_condition& c, const registry& all) {
+  setup s = with_skin(setup_of(c), all.find_backend(backend).traits.skin);
+  s.grid = "hashed_grid";
+  s.M = M;
+  return grid_fits(s);
 }
 
 verify_plan verify_plan_of(const run_request& r, const registry& all) {

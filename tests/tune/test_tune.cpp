@@ -49,6 +49,31 @@ TEST(tune, a_backend_slowed_by_a_fifth_does_not_win_and_a_corrupt_one_gets_no_ti
       << text;
 }
 
+TEST(tune, M_that_do_not_go_round_a_periodic_box_are_left_out_unless_they_were_asked_for) {
+  const registry& all = registry::instance();
+  tune_request r = small({"naive", "symmetric"});
+  r.levels.case_name = "periodic_lattice";
+  r.levels.dx = {0.1};
+  r.levels.M = {2, 5};
+  r.every_M = false;
+  const tune_result result = tune(r, all);
+  ASSERT_TRUE(result.winner.has_value());
+  EXPECT_EQ(result.points.size(), 2u);
+  for (const point& p : result.points) EXPECT_EQ(p.M, 2);
+  r.levels.M = {5};
+  const auto refusal = [&] {
+    try {
+      tune(r, all);
+      return std::string();
+    } catch (const error& e) {
+      return std::string(e.what());
+    }
+  };
+  EXPECT_NE(refusal().find("none of the M"), std::string::npos) << refusal();
+  r.every_M = true;
+  EXPECT_NE(refusal().find("M = 5 does not go round"), std::string::npos) << refusal();
+}
+
 /// The winner is one that measuring everything equally often cannot tell from the best.
 TEST(tune, the_winner_is_among_those_that_an_exhaustive_measurement_cannot_tell_from_the_best) {
   const registry& all = registry::instance();
