@@ -15,7 +15,7 @@ summary, the exit code is ctest's (0: all passed).
 
   --no-install     do not look for missing packages
   --jobs N         processes of the build, and tests at a time (default: what cores and memory allow)
-  --limit SECONDS  after so long no test goes on, and those left count as failed (default: 3600)
+  --limit SECONDS  after so long no test goes on, and those left count as failed (default: 4500)
 
 PYTHON names the Python of the tests (default: /usr/bin/python3; needs pytest, jsonschema, numpy, matplotlib,
 jinja2, selenium).
@@ -23,7 +23,7 @@ Exit code also: 2 bad input; 3 something needed is not installed; that of the bu
 TEXT
 }
 
-install=true jobs='' limit=3600
+install=true jobs='' limit=4500
 while (($# > 0)); do
   case $1 in
     --no-install) install=false ;;

@@ -16,7 +16,6 @@
 #include "harness/run/point_setup.hpp"
 #include "harness/verify/verify_all.hpp"
 #include "sum/grids.hpp"
-#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 namespace {
