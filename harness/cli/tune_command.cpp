@@ -131,7 +131,7 @@ void add_tune_command(CLI::App& app, action& chosen) {
       "  pairsum run --profile talk.profile.json");
   command->callback([&chosen, o, save, M] {
     const bool given = save->count() > 0;
-    o->request.every_M = M->count() > 0;
+    o->request.all_M = M->count() > 0;
     chosen = [o, given] { return start_tuning(*o, given); };
   });
 }

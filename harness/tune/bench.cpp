@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/granularity.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/measure/stopwatch.hpp"
@@ -18,8 +19,17 @@ constexpr int most_evaluations = 50;
 }  // namespace
 
 tune_bench::tune_bench(const tune_request& r, const point& any, const registry& all)
-    : request_(r), all_(all), binding_(r.binding), particles_(r.levels, any) {
-  all_.make_summation(setup_of_point(any, particles_.initial, all_))->check(particles_.initial.particles);
+    : request_(r), all_(all), binding_(r.binding), particles_(r.levels, any) {}
+
+void tune_bench::leave_out_M_that_do_not_fit(std::vector<point>& points) const {
+  if (!particles_.initial.periodic) return;
+  std::erase_if(points, [&](const point& p) { return p.M > 0 && !M_fits(p.M, p.backend, particles_.initial, all_); });
+  if (points.empty())
+    throw error("none of the M that are tried goes round the periodic box: name some with --M, or another --grid");
+}
+
+void tune_bench::check_input(const point& p) const {
+  all_.make_summation(setup_of_point(p, particles_.initial, all_))->check(particles_.initial.particles);
 }
 
 void tune_bench::complete(point& p) const {

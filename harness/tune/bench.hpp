@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "harness/measure/binding.hpp"
 #include "harness/run/world.hpp"
@@ -14,6 +15,12 @@ namespace pairsum::harness {
 class tune_bench {
  public:
   tune_bench(const tune_request& r, const point& any, const registry& all);
+
+  /// Of M that nobody asked for those that do not go round a periodic box. Throws pairsum::error if nothing is left.
+  void leave_out_M_that_do_not_fit(std::vector<point>& points) const;
+
+  /// Throws pairsum::error if a point's summation does not take the particles.
+  void check_input(const point& p) const;
 
   void complete(point& p) const;
 

@@ -12,7 +12,6 @@
 #include "harness/measure/stopwatch.hpp"
 #include "harness/rows/point_words.hpp"
 #include "harness/run/interrupt.hpp"
-#include "harness/run/point_setup.hpp"
 #include "harness/run/progress.hpp"
 #include "harness/tune/bench.hpp"
 #include "harness/tune/candidates.hpp"
@@ -25,15 +24,6 @@ void check(const tune_request& r, const registry& all) {
   if (!(r.budget_s > 0) || !std::isfinite(r.budget_s))
     throw error(fmt::format("budget must be a positive number of seconds, is {}", r.budget_s));
   check_word("phase", r.phase, std::vector<std::string_view>{"total", "sum"});
-}
-
-/// Without the M that nobody asked for and that do not fit. Throws pairsum::error if nothing is left.
-void leave_out_M_that_do_not_fit(std::vector<point>& points, const run_request& r, const registry& all) {
-  const initial_condition c = make_case(r.case_name, {r.dim, r.dx.front(), r.H, r.states.front(), r.seed});
-  if (!c.periodic) return;
-  std::erase_if(points, [&](const point& p) { return p.M > 0 && !M_fits(p.M, p.backend, c, all); });
-  if (points.empty())
-    throw error("none of the M that are tried goes round the periodic box: name some with --M, or another --grid");
 }
 
 bool any_seen(const std::vector<contestant>& all) {
@@ -49,11 +39,12 @@ tune_result tune(const tune_request& r, const registry& all) {
   const auto show = [&](const std::string& text) { line.show(since_start.seconds(), text); };
   tune_result result;
   result.points = candidates_of(r.levels, all);
-  if (!r.every_M) leave_out_M_that_do_not_fit(result.points, r.levels, all);
-  for (const point& p : result.points) result.candidates.emplace_back().family = family_of(p);
   if (numa_nodes() == 1) keep_freed_memory();
   show("making the particles");
   tune_bench bench(r, result.points.front(), all);
+  if (!r.all_M) bench.leave_out_M_that_do_not_fit(result.points);
+  bench.check_input(result.points.front());
+  for (const point& p : result.points) result.candidates.emplace_back().family = family_of(p);
   for (point& p : result.points) bench.complete(p);
   if (!interrupted()) {
     show("making the reference");

@@ -11,7 +11,7 @@ namespace pairsum::harness {
 /// What `pairsum tune` is asked.
 struct tune_request {
   run_request levels;           ///< one case; backends, grids, M, isas, blocks, precisions, threads and granularities
-  bool every_M = true;          ///< false: of levels.M those are left out that do not go round a periodic box
+  bool all_M = true;            ///< false: of levels.M those are left out that do not go round a periodic box
   double budget_s = 60;         ///< for everything
   std::string phase = "total";  ///< "total": index, prepare, zero, sum and reduce; "sum" alone
   std::string binding = "cores_first";

@@ -55,7 +55,7 @@ TEST(tune, M_that_do_not_go_round_a_periodic_box_are_left_out_unless_they_were_a
   r.levels.case_name = "periodic_lattice";
   r.levels.dx = {0.1};
   r.levels.M = {2, 5};
-  r.every_M = false;
+  r.all_M = false;
   const tune_result result = tune(r, all);
   ASSERT_TRUE(result.winner.has_value());
   EXPECT_EQ(result.points.size(), 2u);
@@ -70,7 +70,7 @@ TEST(tune, M_that_do_not_go_round_a_periodic_box_are_left_out_unless_they_were_a
     }
   };
   EXPECT_NE(refusal().find("none of the M"), std::string::npos) << refusal();
-  r.every_M = true;
+  r.all_M = true;
   EXPECT_NE(refusal().find("M = 5 does not go round"), std::string::npos) << refusal();
 }
 
