@@ -150,9 +150,8 @@ struct unit_record {
 };
 
 /// As test_kit::unit_trace, for several columns: the rates and copies of them.
-class columns_trace : public pass_marks {
+class columns_trace : public no_probe {
  public:
-  static constexpr bool counting = false;
   void watch(const field_pointers<rates_of<I>>& u, std::size_t n) { columns_.emplace_back(u, n); }
   void unit_begins(unsigned pass, std::size_t k) {
     close();
@@ -171,13 +170,6 @@ class columns_trace : public pass_marks {
     if (open_) units.back().stretches.back().written = std::move(written);
     open_ = false;
   }
-  void sumF1(std::uint64_t) {}
-  void sumF2(std::uint64_t) {}
-  void tested(std::uint64_t) {}
-  void fluid_pairs(std::uint64_t) {}
-  void boundary_pairs(std::uint64_t) {}
-  void evaluated(std::uint64_t) {}
-  void pairs_of_one(std::uint64_t) {}
 
   std::vector<unit_record> units;
 
