@@ -41,6 +41,17 @@ std::string precisions_text(const registry& r) {
   return join(words);
 }
 
+/// Does each dimension, precision and interaction that takes a smoothing kernel have all of them?
+bool has_every_smoothing(const registry& r) {
+  std::size_t smoothed = 0, with_first = 0;
+  const std::vector<std::string> smoothings = r.smoothings();
+  for (const combination& f : r.formulas()) {
+    smoothed += !f.smoothing.empty();
+    with_first += !f.smoothing.empty() && f.smoothing == smoothings.front();
+  }
+  return smoothed == with_first * smoothings.size();
+}
+
 nlohmann::json as_json() {
   const registry& r = registry::instance();
   nlohmann::json all{{"schema", "pairsum.list/1"},
@@ -71,6 +82,11 @@ nlohmann::json as_json() {
   all["plain_interactions"] = nlohmann::json::array();
   for (const std::string& i : r.interactions())
     if (!r.is_smoothed(i)) all["plain_interactions"].push_back(i);  // those that take no smoothing kernel
+  for (const combination& f : r.formulas())
+    all["formulas"].push_back({{"dim", f.dim},
+                               {"precision", f.precision},
+                               {"interaction", f.interaction},
+                               {"smoothing", f.smoothing.empty() ? nlohmann::json() : nlohmann::json(f.smoothing)}});
   all["unavailable"] = nlohmann::json::array();
   for (const missing_word& m : r.missing())
     all["unavailable"].push_back({{"kind", m.kind}, {"word", m.word}, {"option", m.option}});
@@ -101,6 +117,9 @@ void print_text() {
   for (const int d : r.dims()) dims.push_back(fmt::format("{}D", d));
   for (const missing_word& m : r.missing())
     fmt::print("unavailable       {} {}: not in this build, configure with -D{}=all\n", m.kind, m.word, m.option);
+  if (!has_every_smoothing(r))
+    fmt::print("unavailable       most smoothing kernels in each dimension and precision: configure with {}\n",
+               "-DPAIRSUM_FORMULAS=all");
   fmt::print(
       "interactions      {}\nsmoothing kernels {}\nprecisions        {}\ndimensions        {}\ngrids             {}\n"
       "orders of memory  {}\nstates            {}\ninstruction sets  {} (of vector backends)\n",

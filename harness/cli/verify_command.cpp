@@ -90,10 +90,14 @@ class lines_printer {
   double worst_ = 0;
 };
 
-/// A case that exists in that dimension, and a spacing for about 3000 fluid particles.
-void fill_in_defaults(run_request& q, const verify_options& o) {
+/// A case that exists in that dimension, a spacing for about 3000 fluid particles, and the smoothing kernels that are
+/// built for it.
+void fill_in_defaults(run_request& q, const verify_options& o, const registry& r) {
   q.case_name = !o.case_name.empty() ? o.case_name : q.dim == 1 ? "lattice" : "dam_break";
   if (o.dx.empty()) q.dx = {q.dim == 1 ? 0.0005 : q.dim == 2 ? 0.01 : 0.04};
+  q.smoothings = words_or_all("--smoothing", o.smoothing, r.smoothings());
+  if (q.smoothings.empty()) q.smoothings = {std::string(no_smoothing)};
+  if (o.smoothing == "all") leave_out_unbuilt(q, &run_request::smoothings, r);
 }
 
 /// Of the M that nobody asked for, a periodic box has those whose torus closes where it does. Which these are depends
@@ -125,7 +129,6 @@ int verify(const verify_options& o) {
   q.backends = words_or_all("--backend", o.backend, available_backends(r));
   q.precisions = words_or_all("--precision", o.precision, r.precisions());
   q.interactions = words_or_all("--interaction", o.interaction, r.interactions());
-  q.smoothings = words_or_all("--smoothing", o.smoothing, r.smoothings());
   q.grids = words_or_all("--grid", o.grid, to_words(grid_names()));
   q.isas = words_or_all("--isa", o.isa, to_words(isa_names()));
   q.blocks = parse_words("--block", o.block);
@@ -135,20 +138,20 @@ int verify(const verify_options& o) {
       if (c.name == o.case_name) std::erase_if(dims, [&](int dim) { return dim < c.least_dim; });
   if (!dims.empty()) {
     q.dim = dims.front();
+    fill_in_defaults(q, o, r);
     if (o.precision == "all") leave_out_unbuilt(q, &run_request::precisions, r);
     if (o.interaction == "all") leave_out_unbuilt(q, &run_request::interactions, r);
   }
   for (const int dim : dims) {
     q.dim = dim;
-    fill_in_defaults(q, o);
+    fill_in_defaults(q, o, r);
     check_request(q);
   }
   keep_freed_memory();
-  if (q.smoothings.empty()) q.smoothings = {std::string(no_smoothing)};
   std::size_t made = 0, failed = 0;
   for (const int dim : dims) {
     q.dim = dim;
-    fill_in_defaults(q, o);
+    fill_in_defaults(q, o, r);
     for (const double dx : q.dx)
       for (const std::string& state : q.states) {
         const initial_condition c = make_case(q.case_name, {dim, dx, q.H, state, q.seed});

@@ -47,16 +47,17 @@ bool is_built(const std::string& backend, int dim, const point& world, const reg
   return true;
 }
 
-/// Is any of the request's backends built for any of its precisions and interactions?
+/// Is any of the request's backends built for any of its precisions, interactions and smoothing kernels?
 bool is_any_built(const run_request& r, const registry& all) {
   point world;
   for (const std::string& precision : r.precisions)
-    for (const std::string& interaction : r.interactions) {
-      world.precision = precision;
-      world.interaction = interaction;
-      world.smoothing = all.is_smoothed(interaction) ? r.smoothings.front() : std::string(no_smoothing);
-      if (!built_backends(r, world, all).empty()) return true;
-    }
+    for (const std::string& interaction : r.interactions)
+      for (const std::string& smoothing : r.smoothings) {
+        world.precision = precision;
+        world.interaction = interaction;
+        world.smoothing = all.is_smoothed(interaction) ? smoothing : std::string(no_smoothing);
+        if (!built_backends(r, world, all).empty()) return true;
+      }
   return false;
 }
 
@@ -106,14 +107,14 @@ void leave_out_unbuilt(run_request& r, std::vector<std::string> run_request::*wo
 }
 
 void check_built(const run_request& r, const registry& all) {
-  for (const auto words : {&run_request::precisions, &run_request::interactions})
+  for (const auto words : {&run_request::precisions, &run_request::interactions, &run_request::smoothings})
     for (const std::string& word : r.*words) {
       run_request one = r;
       one.*words = {word};
       if (!is_any_built(one, all))
         throw error(
-            fmt::format("none of the backends {} is built for {} in {}D and precision {}{}", join(r.backends),
-                        join(one.interactions), r.dim, join(one.precisions),
+            fmt::format("none of the backends {} is built for {} with {} in {}D and precision {}{}", join(r.backends),
+                        join(one.interactions), join(one.smoothings), r.dim, join(one.precisions),
                         word == mixed_precision ? ", which is for interactions of real numbers on vector units" : ""));
     }
 }

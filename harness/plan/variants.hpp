@@ -33,12 +33,13 @@ std::vector<backend_way> ways_of(const run_request& r, const std::vector<std::st
 /// backend that is unknown or unavailable.
 std::vector<std::string> built_backends(const run_request& r, const point& world, const registry& all);
 
-/// Leaves out the precisions, or the interactions, that none of the request's backends was built for together with its
-/// other words: what nobody asked for by name. If there are no others they stay, and check_built() says what is wrong.
+/// Leaves out the precisions, interactions or smoothing kernels that none of the request's backends was built for
+/// together with its other words: what nobody asked for by name. If there are no others they stay, and check_built()
+/// says what is wrong.
 void leave_out_unbuilt(run_request& r, std::vector<std::string> run_request::*words, const registry& all);
 
-/// Throws pairsum::error for a precision that none of the request's backends was built for with any of its
-/// interactions, or an interaction with any of its precisions; combinations that were not built are left out.
+/// Throws pairsum::error for a precision, interaction or smoothing kernel that none of the request's backends was built
+/// for with any of its others; combinations that were not built are left out.
 void check_built(const run_request& r, const registry& all);
 
 }  // namespace pairsum::harness

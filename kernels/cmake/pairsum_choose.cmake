@@ -60,3 +60,25 @@ endforeach()
 if(PAIRSUM_ALL_ISAS)
   pairsum_choose(ISAS)
 endif()
+
+# Which smoothing kernels each dimension and precision has. `covering` is for tests, which then compile half: the first kernel,
+# and of the others one that takes turns, so that each is built with each interaction in some of them.
+set(PAIRSUM_FORMULAS all CACHE STRING "Formulas of each dimension and precision: all, or covering (two smoothing kernels each)")
+if(NOT PAIRSUM_FORMULAS MATCHES "^(all|covering)$")
+  message(FATAL_ERROR "PAIRSUM_FORMULAS is \"${PAIRSUM_FORMULAS}\"; valid: all, covering")
+endif()
+
+# Sets `out` to the smoothing kernels of an interaction in one dimension and precision.
+function(pairsum_smoothings_of out interaction dim precision)
+  list(LENGTH BUILT_SMOOTHINGS smoothings)
+  if(PAIRSUM_FORMULAS STREQUAL all OR smoothings LESS 3)
+    set(${out} ${BUILT_SMOOTHINGS} PARENT_SCOPE)
+    return()
+  endif()
+  list(FIND BUILT_DIMS ${dim} d)
+  list(FIND BUILT_PRECISIONS ${precision} p)
+  list(FIND BUILT_INTERACTIONS ${interaction} i)
+  math(EXPR turn "1 + (3 * ${d} + ${p} + 2 * ${i}) % (${smoothings} - 1)")
+  list(GET BUILT_SMOOTHINGS 0 ${turn} two)
+  set(${out} ${two} PARENT_SCOPE)
+endfunction()

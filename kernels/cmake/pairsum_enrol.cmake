@@ -15,7 +15,7 @@ function(pairsum_write path text)
   file(WRITE ${path} "${text}")
 endfunction()
 
-# The types of all interactions in one dimension and precision. Precision mixed is for lanes.
+# The types of the interactions in one dimension and precision. Precision mixed is for lanes.
 function(pairsum_types out dim precision)
   set(types "")
   foreach(i IN LISTS BUILT_INTERACTIONS)
@@ -32,7 +32,8 @@ function(pairsum_types out dim precision)
     if(i IN_LIST PAIRSUM_ALL_PLAIN_INTERACTIONS)
       list(APPEND types "${of}${end}")
     else()
-      foreach(s IN LISTS BUILT_SMOOTHINGS)
+      pairsum_smoothings_of(smoothings ${i} ${dim} ${precision})
+      foreach(s IN LISTS smoothings)
         list(APPEND types "${of}, ${s}${end}")
       endforeach()
     endif()

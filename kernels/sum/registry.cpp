@@ -69,6 +69,9 @@ std::vector<std::string> registry::precisions() const {
 std::vector<int> registry::dims() const {
   return distinct<int>(references_, [](const combination& c) { return c.dim; });
 }
+std::vector<combination> registry::formulas() const {
+  return distinct<combination>(references_, [](const combination& c) { return c; });
+}
 
 template <class Words>
 void registry::check_built(const std::string& kind, const std::string& word, const Words& built) const {
@@ -123,7 +126,7 @@ const auto& registry::find(const Entries& entries, const setup& s) const {
     if (std::ranges::find(built, words) == built.end()) built.push_back(words);
   }
   throw error(s.interaction + "/" + s.smoothing + "/" + std::to_string(s.dim) + "D/" + s.precision +
-              " was not built; built: " + join(built));
+              " was not built (see PAIRSUM_FORMULAS); built: " + join(built));
 }
 
 std::unique_ptr<summation> registry::make_summation(const setup& s) const {

@@ -50,6 +50,9 @@ class registry {
   std::vector<std::string> smoothings() const;
   std::vector<std::string> precisions() const;
   std::vector<int> dims() const;
+  /// Every interaction, smoothing kernel, dimension and precision that there is a reference for. Not each with each: a
+  /// build may have chosen (PAIRSUM_FORMULAS), and `count` has no precision mixed.
+  std::vector<combination> formulas() const;
 
   const std::vector<missing_word>& missing() const { return missing_; }
 

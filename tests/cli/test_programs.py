@@ -1,7 +1,6 @@
 """What the programs print and write when all is well."""
 
 import csv
-import itertools
 import json
 import os
 import pathlib
@@ -33,13 +32,10 @@ def backends(listed):
 def number_of_sums(listed, M, threads):
     """How many sums `verify` makes: serial backends once, the others with each number of threads; grids that take no M
     once, vector backends with each isa, every backend in the precisions that it has."""
-    plain = len(listed["plain_interactions"])
-    smoothed = (len(listed["interactions"]) - plain) * len(listed["smoothings"])
     runs = sum((1 if b["threads"] == "serial" else threads) * (len(listed["isas"]) if b["vector"] else 1) *
-               sum(smoothed + (0 if p == "mixed" else plain) for p in b["precisions"])
+               sum(f["precision"] in b["precisions"] for f in listed["formulas"])
                for b in listed["backends"] if b["unavailable"] is None)
-    grids = len(listed["grids"]) + (M - 1) * len(listed["grids_with_M"])
-    return len(listed["dims"]) * grids * runs
+    return (len(listed["grids"]) + (M - 1) * len(listed["grids_with_M"])) * runs
 
 
 def schema_errors(path):
@@ -65,9 +61,9 @@ def test_help_teaches(pairsum):
 def test_number_of_sums():
     backends = [{"threads": t, "unavailable": u, "vector": v, "precisions": ["double"]}
                 for t, u, v in [("serial", None, False), ("omp", None, True), ("tbb", "no TBB", False)]]
-    built = {"backends": backends, "dims": [2, 3], "grids": ["a", "b"], "grids_with_M": ["a"], "isas": ["x", "y"], "precisions": ["double"], "interactions": ["a", "count"], "smoothings": ["s", "t"],
-             "plain_interactions": ["count"]}
-    assert number_of_sums(built, 2, 3) == 2 * (2 + 1) * (2 + 1) * (1 + 2 * 3)
+    built = {"backends": backends, "grids": ["a", "b"], "grids_with_M": ["a"], "isas": ["x", "y"],
+             "formulas": [{"precision": p} for p in ["double", "double", "float"]]}
+    assert number_of_sums(built, 2, 3) == 2 * (2 + 1) * (1 + 2 * 3)
 
 
 def test_list_and_its_json_agree(pairsum, listed):
@@ -134,9 +130,8 @@ def test_verify_says_how_many_agree(pairsum, listed):
     assert done.returncode == 0, done.stdout
     n = number_of_sums(listed, M=2, threads=2)
     assert done.stdout.splitlines()[-1] == f"{n} of {n} sums agree with the reference"
-    for words in itertools.product(listed["dims"], listed["precisions"], listed["smoothings"]):
-        dim, precision, smoothing = words
-        assert re.search(rf"^{dim}D +{precision} +ferrari09 +{smoothing} +\d+ sums ", done.stdout, re.M), words
+    for f in listed["formulas"]:
+        assert re.search(rf"^{f['dim']}D +{f['precision']} +{f['interaction']} +{f['smoothing'] or 'none'} +\d+ sums ", done.stdout, re.M), f
 
 
 def test_verify_can_say_each_sum(pairsum):
@@ -178,7 +173,7 @@ def test_verify_leaves_out_what_nobody_asked_for_by_name(pairsum, listed):
 
 def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
     out = tmp_path / "rows.jsonl"
-    kernels = listed["smoothings"][:2]
+    kernels = sorted({f["smoothing"] for f in listed["formulas"] if f["dim"] == 3 and f["smoothing"]})
     precisions = next(b["precisions"] for b in listed["backends"] if b["name"] == "naive")
     factors = {"precision": precisions, "interaction": listed["interactions"], "smoothing": kernels,
                "order": ["lattice", "shuffled", "morton"], "integrator": ["euler", "rk4"]}
@@ -187,9 +182,8 @@ def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
                    "--steps", "1", "--rounds", "1", *options, "--out", out)
     assert done.returncode == 0, done.stderr
     points = [row["point"] for row in map(json.loads, out.read_text().splitlines()) if row["kind"] == "sample"]
-    plain = len(listed["plain_interactions"])
-    formulas = (len(listed["interactions"]) - plain) * len(kernels) + plain
-    assert len(points) == len({json.dumps(p, sort_keys=True) for p in points}) == 2 * 3 * 2 * formulas * len(precisions)
+    formulas = [f for f in listed["formulas"] if f["dim"] == 3 and f["precision"] in precisions]
+    assert len(points) == len({json.dumps(p, sort_keys=True) for p in points}) == 2 * 3 * 2 * len(formulas)
     assert {p["smoothing"] for p in points if p["interaction"] == "count"} == {"none"}
     assert schema_errors(out) == []
     for words in ["random_clustered 3D, H = 2 dx", f"double, {listed['interactions'][-1]}", "rk4, order shuffled"]:

@@ -20,10 +20,12 @@ void enrol(registry& r) {
 const registry& oscillator_registry() {
   static const registry all = [] {
     registry r;
+    enrol<3, double>(r);
+#ifndef PAIRSUM_3D_DOUBLE_ALONE
     enrol<1, double>(r);
     enrol<2, double>(r);
-    enrol<3, double>(r);
     enrol<3, float>(r);
+#endif
     return r;
   }();
   return all;

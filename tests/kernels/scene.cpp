@@ -38,16 +38,9 @@ setup with(setup s, std::string_view backend, const grid_choice& grid, std::stri
 }
 
 std::vector<formula> formulas() {
-  const registry& r = registry::instance();
   std::vector<formula> all;
-  for (const int dim : r.dims())
-    for (const std::string& precision : r.precisions())
-      for (const std::string& interaction : r.interactions()) {
-        if (precision == "mixed" && interaction == "count") continue;  // whole numbers
-        if (!r.is_smoothed(interaction)) all.push_back({dim, precision, interaction, "none"});
-        if (r.is_smoothed(interaction))
-          for (const std::string& smoothing : r.smoothings()) all.push_back({dim, precision, interaction, smoothing});
-      }
+  for (const combination& c : registry::instance().formulas())
+    all.push_back({c.dim, c.precision, c.interaction, c.smoothing.empty() ? "none" : c.smoothing});
   return all;
 }
 

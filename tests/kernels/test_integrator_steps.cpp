@@ -36,10 +36,9 @@ std::ostream& operator<<(std::ostream& o, const words& w) {
 std::vector<words> all_words() {
   std::vector<words> all;
   for (const std::string& i : integrators)
-    for (const char* b : {"naive", "symmetric"}) {
-      for (const int D : {1, 2, 3}) all.push_back({i, b, "double", D});
-      all.push_back({i, b, "float", 3});
-    }
+    for (const char* b : {"naive", "symmetric"})
+      for (const combination& c : oscillator_registry().formulas())
+        if (c.interaction == "oscillators") all.push_back({i, b, c.precision, c.dim});
   return all;
 }
 

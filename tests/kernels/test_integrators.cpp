@@ -108,7 +108,7 @@ class integrators_test : public testing::TestWithParam<std::tuple<scheme, std::s
 };
 INSTANTIATE_TEST_SUITE_P(scheme, integrators_test,
                          testing::Combine(testing::ValuesIn(schemes), testing::Values("naive", "symmetric"),
-                                          testing::Values(1, 2, 3)),
+                                          testing::ValuesIn(oscillator_registry().dims())),
                          [](const auto& i) {
                            return std::get<0>(i.param).name + "_" + std::get<1>(i.param) + "_" +
                                   std::to_string(std::get<2>(i.param)) + "D";

@@ -142,32 +142,28 @@ TEST(declared_flops, of_the_default_formula_by_hand) {
 /// Every formula of this build, through the door.
 TEST(costs, are_told_by_every_reference) {
   const registry& r = registry::instance();
-  for (const std::string& interaction : r.interactions())
-    for (const std::string& smoothing : r.smoothings())
-      for (const int dim : r.dims())
-        for (const std::string& precision : r.precisions()) {
-          if (precision == "mixed" && interaction == "count") continue;
-          SCOPED_TRACE(interaction + "/" + smoothing + "/" + std::to_string(dim) + "D/" + precision);
-          setup s;
-          s.interaction = interaction;
-          s.smoothing = smoothing;
-          s.dim = dim;
-          s.precision = precision;
-          s.constants.H = 0.1;
-          s.omega_low.assign(static_cast<std::size_t>(dim), 0);
-          s.omega_high.assign(static_cast<std::size_t>(dim), 1);
-          const formula_costs c = r.make_reference(s)->costs();
-          ASSERT_TRUE(c.declared.has_value());
-          EXPECT_EQ(*c.declared, c.counted);
-          EXPECT_EQ(c.dim, dim);
-          EXPECT_EQ(c.distance_test, 3 * dim);
-          const int value = precision == "double" ? 8 : 4, real = precision == "float" ? 4 : 8;
-          const int scalars = interaction == "ferrari09" ? dim + 5 : interaction == "monaghan94" ? dim + 4 : 0;
-          const bool counts = interaction == "count";
-          EXPECT_EQ(c.fluid_bytes, value * (dim + scalars) + (counts ? 8 : 0));
-          EXPECT_EQ(c.rates_bytes, counts ? 16 : real * (1 + dim));
-          EXPECT_EQ(c.boundary_bytes, real * dim + (counts ? 8 : interaction == "ferrari09" ? real * dim : 0));
-        }
+  for (const auto& [interaction, smoothing, dim, precision] : r.formulas()) {
+    SCOPED_TRACE(interaction + "/" + smoothing + "/" + std::to_string(dim) + "D/" + precision);
+    setup s;
+    s.interaction = interaction;
+    s.smoothing = smoothing;
+    s.dim = dim;
+    s.precision = precision;
+    s.constants.H = 0.1;
+    s.omega_low.assign(static_cast<std::size_t>(dim), 0);
+    s.omega_high.assign(static_cast<std::size_t>(dim), 1);
+    const formula_costs c = r.make_reference(s)->costs();
+    ASSERT_TRUE(c.declared.has_value());
+    EXPECT_EQ(*c.declared, c.counted);
+    EXPECT_EQ(c.dim, dim);
+    EXPECT_EQ(c.distance_test, 3 * dim);
+    const int value = precision == "double" ? 8 : 4, real = precision == "float" ? 4 : 8;
+    const int scalars = interaction == "ferrari09" ? dim + 5 : interaction == "monaghan94" ? dim + 4 : 0;
+    const bool counts = interaction == "count";
+    EXPECT_EQ(c.fluid_bytes, value * (dim + scalars) + (counts ? 8 : 0));
+    EXPECT_EQ(c.rates_bytes, counts ? 16 : real * (1 + dim));
+    EXPECT_EQ(c.boundary_bytes, real * dim + (counts ? 8 : interaction == "ferrari09" ? real * dim : 0));
+  }
 }
 
 }  // namespace
