@@ -12,3 +12,9 @@ function(pairsum_discover_suites target)
     "if(EXISTS \"${listed}\")\n  include(\"${listed}\")\nelse()\n  add_test(${target}_NOT_BUILT ${target}_NOT_BUILT)\nendif()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${suites})
 endfunction()
+
+# pairsum_compile_together(TARGET): its sources are compiled four at a time, since most of the time goes into headers. So what a
+# test has at file scope needs a name that its neighbours do not have.
+function(pairsum_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+endfunction()

@@ -21,7 +21,7 @@ const registry& oscillator_registry() {
   static const registry all = [] {
     registry r;
     enrol<3, double>(r);
-#ifndef PAIRSUM_3D_DOUBLE_ALONE
+#ifndef PAIRSUM_SANITIZED
     enrol<1, double>(r);
     enrol<2, double>(r);
     enrol<3, float>(r);

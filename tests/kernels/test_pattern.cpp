@@ -24,7 +24,7 @@ static_assert(pattern::step_code<2>(0, 3) == pattern::neighbour_code<2>({1, 1}) 
               pattern::step_code<2>(2, 1) == pattern::neighbour_code<2>({1, -1}));
 
 template <int D>
-struct torus {
+struct torus_of_cells {
   int side;
 
   int cells() const {
@@ -59,7 +59,7 @@ struct torus {
 /// Does every unordered pair of neighbours, and every cell with itself, come up exactly once?
 template <int D>
 bool covers_each_pair_once(int side, unsigned pairs_used = pattern::b(D)) {
-  const torus<D> t{side};
+  const torus_of_cells<D> t{side};
   std::map<std::pair<int, int>, int> visits;
   for (int base = 0; base < t.cells(); ++base) {
     ++visits[{base, base}];
@@ -83,7 +83,7 @@ bool covers_each_pair_once(int side, unsigned pairs_used = pattern::b(D)) {
 /// Do no two blocks of a pass share a cell?
 template <int D>
 bool passes_are_conflict_free(int side) {
-  const torus<D> t{side};
+  const torus_of_cells<D> t{side};
   std::map<std::pair<unsigned, int>, int> owners;
   for (int base = 0; base < t.cells(); ++base)
     for (unsigned o = 0; o < pattern::block_cells<D>; ++o) ++owners[{t.parity(base), t.at(base, o)}];
@@ -130,7 +130,7 @@ TYPED_TEST(pattern_test, conflict_check_rejects_an_odd_torus) {
 /// A full torus as a grid would describe it: cell n of the torus is cell n + 1, with one fluid particle.
 template <int D>
 cells<D> full_cells(int side) {
-  const torus<D> t{side};
+  const torus_of_cells<D> t{side};
   const std::size_t n = static_cast<std::size_t>(t.cells());
   cells<D> c;
   c.range.resize(n + 1);
@@ -169,7 +169,7 @@ block_lists<D> library_blocks(int side, const team& t = team()) {
 /// What is wrong with these lists on a full torus, "" if nothing is.
 template <int D>
 std::string fault_of(const block_lists<D>& lists, int side) {
-  const torus<D> t{side};
+  const torus_of_cells<D> t{side};
   std::vector<int> bases(static_cast<std::size_t>(t.cells()), 0);
   std::map<std::pair<int, int>, int> visits;
   for (const auto& of_one_colour : lists) {

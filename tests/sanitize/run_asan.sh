@@ -6,7 +6,7 @@
 set -eu
 source=$1 build=$2
 kernels='formula_matrix|edge_cases|few_particles|clouds_test|symmetries|integrat|lost|counting_sort|reorderer|indexer|hashed_grid'
-kernels="$kernels|tiles_test|tiles[.]|mixed_test|mixed[.]|cell_blocks|block_choice|block_shape|check_input|registry|random|agreement|monaghan94|ferrari09|running_error|broken"
+kernels="$kernels|tiles_test|tiles[.]|mixed_test|mixed[.]|cell_blocks|block_choice|block_shape|check_input|registry|random|agreement|ferrari09|broken"
 results='words|rows|row_|stats|median|interval|ratio|speedup'
 # What takes half a minute each.
 slow='coincide.*(tbb|naive)|wrong_pair_is_rejected_by_counting'
