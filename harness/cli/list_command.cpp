@@ -118,7 +118,7 @@ void print_text() {
   for (const missing_word& m : r.missing())
     fmt::print("unavailable       {} {}: not in this build, configure with -D{}=all\n", m.kind, m.word, m.option);
   if (!has_every_smoothing(r))
-    fmt::print("unavailable       most smoothing kernels in each dimension and precision: configure with {}\n",
+    fmt::print("unavailable       some smoothing kernels in each dimension and precision: configure with {}\n",
                "-DPAIRSUM_FORMULAS=all");
   fmt::print(
       "interactions      {}\nsmoothing kernels {}\nprecisions        {}\ndimensions        {}\ngrids             {}\n"

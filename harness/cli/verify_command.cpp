@@ -90,14 +90,17 @@ class lines_printer {
   double worst_ = 0;
 };
 
-/// A case that exists in that dimension, a spacing for about 3000 fluid particles, and the smoothing kernels that are
-/// built for it.
-void fill_in_defaults(run_request& q, const verify_options& o, const registry& r) {
-  q.case_name = !o.case_name.empty() ? o.case_name : q.dim == 1 ? "lattice" : "dam_break";
-  if (o.dx.empty()) q.dx = {q.dim == 1 ? 0.0005 : q.dim == 2 ? 0.01 : 0.04};
-  q.smoothings = words_or_all("--smoothing", o.smoothing, r.smoothings());
-  if (q.smoothings.empty()) q.smoothings = {std::string(no_smoothing)};
+/// The request in one dimension: a case that exists there, a spacing for about 3000 fluid particles, and without the
+/// words that nobody asked for by name and that are not built there.
+run_request in_dimension(int dim, const run_request& asked, const verify_options& o, const registry& r) {
+  run_request q = asked;
+  q.dim = dim;
+  q.case_name = !o.case_name.empty() ? o.case_name : dim == 1 ? "lattice" : "dam_break";
+  if (o.dx.empty()) q.dx = {dim == 1 ? 0.0005 : dim == 2 ? 0.01 : 0.04};
+  if (o.precision == "all") leave_out_unbuilt(q, &run_request::precisions, r);
+  if (o.interaction == "all") leave_out_unbuilt(q, &run_request::interactions, r);
   if (o.smoothing == "all") leave_out_unbuilt(q, &run_request::smoothings, r);
+  return q;
 }
 
 /// Of the M that nobody asked for, a periodic box has those whose torus closes where it does. Which these are depends
@@ -129,6 +132,8 @@ int verify(const verify_options& o) {
   q.backends = words_or_all("--backend", o.backend, available_backends(r));
   q.precisions = words_or_all("--precision", o.precision, r.precisions());
   q.interactions = words_or_all("--interaction", o.interaction, r.interactions());
+  q.smoothings = words_or_all("--smoothing", o.smoothing, r.smoothings());
+  if (q.smoothings.empty()) q.smoothings = {std::string(no_smoothing)};
   q.grids = words_or_all("--grid", o.grid, to_words(grid_names()));
   q.isas = words_or_all("--isa", o.isa, to_words(isa_names()));
   q.blocks = parse_words("--block", o.block);
@@ -136,30 +141,24 @@ int verify(const verify_options& o) {
   if (o.dim == "all")
     for (const case_entry& c : case_entries())
       if (c.name == o.case_name) std::erase_if(dims, [&](int dim) { return dim < c.least_dim; });
-  if (!dims.empty()) {
-    q.dim = dims.front();
-    fill_in_defaults(q, o, r);
-    if (o.precision == "all") leave_out_unbuilt(q, &run_request::precisions, r);
-    if (o.interaction == "all") leave_out_unbuilt(q, &run_request::interactions, r);
-  }
+  std::vector<run_request> requests;
   for (const int dim : dims) {
-    q.dim = dim;
-    fill_in_defaults(q, o, r);
-    check_request(q);
+    const run_request here = in_dimension(dim, q, o, r);
+    if (o.dim == "all" && expand(here, r).empty() && (dim != dims.back() || !requests.empty())) continue;
+    check_request(here);
+    requests.push_back(here);
   }
   keep_freed_memory();
   std::size_t made = 0, failed = 0;
-  for (const int dim : dims) {
-    q.dim = dim;
-    fill_in_defaults(q, o, r);
-    for (const double dx : q.dx)
-      for (const std::string& state : q.states) {
-        const initial_condition c = make_case(q.case_name, {dim, dx, q.H, state, q.seed});
+  for (const run_request& there : requests) {
+    for (const double dx : there.dx)
+      for (const std::string& state : there.states) {
+        const initial_condition c = make_case(there.case_name, {there.dim, dx, there.H, state, there.seed});
         fmt::print("{} {}D dx={} {}: {} fluid, {} boundary particles; largest error in units of its bound\n",
-                   q.case_name, dim, dx, state, c.particles.count(particle_kind::fluid),
+                   there.case_name, there.dim, dx, state, c.particles.count(particle_kind::fluid),
                    c.particles.count(particle_kind::boundary));
-        lines_printer lines(dim, o.each);
-        run_request here = q;
+        lines_printer lines(there.dim, o.each);
+        run_request here = there;
         here.dx = {dx};
         here.states = {state};
         for (const run_request& part : o.all_M ? std::vector{here} : parts_with_M_that_fit(here, c))

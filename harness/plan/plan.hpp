@@ -50,7 +50,7 @@ inline constexpr std::string_view no_block = "none";
 
 /// The points, grouped by world. A serial backend appears once per variant, with 1 thread; an interaction that takes no
 /// smoothing kernel appears once. A backend that was not built for a world's formula and precision is left out of it;
-/// check_request refuses a world that has none.
+/// check_request refuses a word that no world has.
 std::vector<world_plan> expand(const run_request& r, const registry& all = registry::instance());
 
 /// The order in which repetition `repetition` of round `round` measures `n` points: a permutation that depends on

@@ -61,6 +61,32 @@ bool is_any_built(const run_request& r, const registry& all) {
   return false;
 }
 
+bool has_smoothed(const run_request& r, const registry& all) {
+  return std::ranges::any_of(r.interactions, [&](const std::string& i) { return all.is_smoothed(i); });
+}
+
+/// The request with one of its words alone; with one smoothing kernel, without the interactions that take none, unless
+/// all are such.
+run_request with_one(const run_request& r, std::vector<std::string> run_request::*words, const std::string& word,
+                     const registry& all) {
+  run_request one = r;
+  one.*words = {word};
+  if (words == &run_request::smoothings && has_smoothed(r, all))
+    std::erase_if(one.interactions, [&](const std::string& i) { return !all.is_smoothed(i); });
+  return one;
+}
+
+/// Why nothing that a request asks for is built.
+std::string reason_of(const run_request& r, const registry& all) {
+  run_request other = r;
+  other.smoothings = all.smoothings();
+  if (has_smoothed(r, all) && is_any_built(other, all))
+    return "; with other smoothing kernels it is, configure with -DPAIRSUM_FORMULAS=all";
+  return r.precisions == std::vector{std::string(mixed_precision)}
+             ? ", which is for interactions of real numbers on vector units"
+             : "";
+}
+
 }  // namespace
 
 std::vector<cell_grid> grids_of(const run_request& r) {
@@ -98,24 +124,20 @@ std::vector<std::string> built_backends(const run_request& r, const point& world
 
 void leave_out_unbuilt(run_request& r, std::vector<std::string> run_request::*words, const registry& all) {
   std::vector<std::string> built;
-  for (const std::string& word : r.*words) {
-    run_request one = r;
-    one.*words = {word};
-    if (is_any_built(one, all)) built.push_back(word);
-  }
+  for (const std::string& word : r.*words)
+    if (is_any_built(with_one(r, words, word, all), all)) built.push_back(word);
   if (!built.empty()) r.*words = built;
 }
 
 void check_built(const run_request& r, const registry& all) {
   for (const auto words : {&run_request::precisions, &run_request::interactions, &run_request::smoothings})
     for (const std::string& word : r.*words) {
-      run_request one = r;
-      one.*words = {word};
+      const run_request one = with_one(r, words, word, all);
       if (!is_any_built(one, all))
-        throw error(
-            fmt::format("none of the backends {} is built for {} with {} in {}D and precision {}{}", join(r.backends),
-                        join(one.interactions), join(one.smoothings), r.dim, join(one.precisions),
-                        word == mixed_precision ? ", which is for interactions of real numbers on vector units" : ""));
+        throw error(fmt::format("none of the backends {} is built for {}{} in {}D and precision {}{}", join(r.backends),
+                                join(one.interactions),
+                                has_smoothed(one, all) ? " with " + join(one.smoothings) : std::string(), r.dim,
+                                join(one.precisions), reason_of(one, all)));
     }
 }
 

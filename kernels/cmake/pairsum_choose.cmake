@@ -62,7 +62,8 @@ if(PAIRSUM_ALL_ISAS)
 endif()
 
 # Which smoothing kernels each dimension and precision has. `covering` is for tests, which then compile half: the first kernel,
-# and of the others one that takes turns, so that each is built with each interaction in some of them.
+# and of the others one that takes turns, so that each is built with each interaction in some of them. There are as many turns as
+# dimensions and precisions; if these, or so few kernels that all may be built, do not make it worth while, it is the same as `all`.
 set(PAIRSUM_FORMULAS all CACHE STRING "Formulas of each dimension and precision: all, or covering (two smoothing kernels each)")
 if(NOT PAIRSUM_FORMULAS MATCHES "^(all|covering)$")
   message(FATAL_ERROR "PAIRSUM_FORMULAS is \"${PAIRSUM_FORMULAS}\"; valid: all, covering")
@@ -71,7 +72,7 @@ endif()
 # Sets `out` to the smoothing kernels of an interaction in one dimension and precision.
 function(pairsum_smoothings_of out interaction dim precision)
   list(LENGTH BUILT_SMOOTHINGS smoothings)
-  if(PAIRSUM_FORMULAS STREQUAL all OR smoothings LESS 3)
+  if(PAIRSUM_FORMULAS STREQUAL all OR smoothings LESS 3 OR smoothings GREATER 10 OR MISSING_DIMS OR MISSING_PRECISIONS)
     set(${out} ${BUILT_SMOOTHINGS} PARENT_SCOPE)
     return()
   endif()

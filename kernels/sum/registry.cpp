@@ -114,10 +114,12 @@ const auto& registry::find(const Entries& entries, const setup& s) const {
   check_precision(s.precision);
   check_dim(s.dim);
   std::vector<std::string> built;
+  bool with_another_smoothing = false;
   for (const auto& e : entries) {
     if constexpr (requires { e.backend; })
       if (e.backend != s.backend) continue;
     const combination& c = e.what;
+    with_another_smoothing |= c.interaction == s.interaction && c.dim == s.dim && c.precision == s.precision;
     if (c.interaction == s.interaction && (c.smoothing.empty() || c.smoothing == s.smoothing) && c.dim == s.dim &&
         c.precision == s.precision)
       return e;
@@ -125,8 +127,8 @@ const auto& registry::find(const Entries& entries, const setup& s) const {
                               std::to_string(c.dim) + "D/" + c.precision;
     if (std::ranges::find(built, words) == built.end()) built.push_back(words);
   }
-  throw error(s.interaction + "/" + s.smoothing + "/" + std::to_string(s.dim) + "D/" + s.precision +
-              " was not built (see PAIRSUM_FORMULAS); built: " + join(built));
+  throw error(s.interaction + "/" + s.smoothing + "/" + std::to_string(s.dim) + "D/" + s.precision + " was not built" +
+              (with_another_smoothing ? ", configure with -DPAIRSUM_FORMULAS=all" : "") + "; built: " + join(built));
 }
 
 std::unique_ptr<summation> registry::make_summation(const setup& s) const {

@@ -70,6 +70,8 @@ def test_list_and_its_json_agree(pairsum, listed):
     names = [b["name"] for b in listed["backends"]]
     in_tree = {p.stem for p in (SOURCE / "kernels/backends").glob("*.hpp") if "backend_traits traits" in p.read_text()}
     assert len(names) == len(set(names)) and set(names) == in_tree
+    known = set(listed["smoothings"]) | {m["word"] for m in listed["unavailable"] if m["kind"] == "smoothing kernel"}
+    assert known == {p.stem for p in (SOURCE / "kernels/smoothing").glob("*.hpp")}
     text = pairsum("list").stdout
     for kind in ["backends", "cases", "integrators"]:
         for entry in listed[kind]:
@@ -132,6 +134,28 @@ def test_verify_says_how_many_agree(pairsum, listed):
     assert done.stdout.splitlines()[-1] == f"{n} of {n} sums agree with the reference"
     for f in listed["formulas"]:
         assert re.search(rf"^{f['dim']}D +{f['precision']} +{f['interaction']} +{f['smoothing'] or 'none'} +\d+ sums ", done.stdout, re.M), f
+
+
+def test_verify_takes_each_smoothing_kernel_where_it_is_built(pairsum, listed):
+    for smoothing in listed["smoothings"]:
+        done = pairsum("verify", "--smoothing", smoothing, "--backend", "symmetric,tiles_omp", "--dx", "0.1", "--M", "3", "--threads", "1")
+        assert done.returncode == 0, done.stderr
+        lines = re.findall(r"^(\d)D +(\w+) +(\w+) +(\w+) +\d+ sums ", done.stdout, re.M)
+        assert sorted(line for line in lines if line[3] != "none") == sorted(
+            (str(f["dim"]), f["precision"], f["interaction"], smoothing) for f in listed["formulas"] if f["smoothing"] == smoothing)
+
+
+def test_a_smoothing_kernel_that_is_not_built_here_is_refused(pairsum, listed):
+    places = {(f["dim"], f["precision"], f["interaction"]) for f in listed["formulas"] if f["smoothing"]}
+    built = {(f["dim"], f["precision"], f["interaction"], f["smoothing"]) for f in listed["formulas"]}
+    gaps = [(*place, s) for place in sorted(places) for s in listed["smoothings"] if (*place, s) not in built]
+    assert ("PAIRSUM_FORMULAS" in pairsum("list").stdout) == bool(gaps)
+    for dim, precision, interaction, smoothing in gaps[:2]:
+        done = pairsum("run", "--case", "lattice", "--dim", dim, "--dx", 0.1, "--precision", precision, "--backend", "tiles_omp",
+                       "--interaction", f"{interaction},count" if precision != "mixed" else interaction,
+                       "--smoothing", f"{listed['smoothings'][0]},{smoothing}", "--rounds", 1)
+        assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
+        assert f"{interaction} with {smoothing} in {dim}D" in done.stderr and "-DPAIRSUM_FORMULAS=all" in done.stderr
 
 
 def test_verify_can_say_each_sum(pairsum):

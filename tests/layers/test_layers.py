@@ -126,9 +126,10 @@ def test_every_header_says_pragma_once():
 def test_presets_leave_no_option_to_an_old_cache():
     presets = {p["name"]: p for p in json.loads((SOURCE / "CMakePresets.json").read_text())["configurePresets"]}
     options = set(re.findall(r"^option\((PAIRSUM_\w+)", (SOURCE / "CMakeLists.txt").read_text(), re.M))
-    choices = re.search(r"set\(PAIRSUM_CHOICES (.*?)\)", (SOURCE / "kernels/cmake/pairsum_choose.cmake").read_text())[1].split()
-    options |= {f"PAIRSUM_{choice}" for choice in choices}
-    assert len(options) > 8 and options <= presets["base"]["cacheVariables"].keys()
+    chosen = (SOURCE / "kernels/cmake/pairsum_choose.cmake").read_text()
+    options |= {f"PAIRSUM_{choice}" for choice in re.search(r"set\(PAIRSUM_CHOICES (.*?)\)", chosen)[1].split()}
+    options |= set(re.findall(r"set\((PAIRSUM_\w+) .* CACHE ", chosen))
+    assert len(options) > 9 and "PAIRSUM_FORMULAS" in options and options <= presets["base"]["cacheVariables"].keys()
     for name, preset in presets.items():
         while preset["name"] != "base":
             assert preset.get("inherits"), name

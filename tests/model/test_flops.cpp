@@ -142,6 +142,7 @@ TEST(declared_flops, of_the_default_formula_by_hand) {
 /// Every formula of this build, through the door.
 TEST(costs, are_told_by_every_reference) {
   const registry& r = registry::instance();
+  ASSERT_FALSE(r.formulas().empty());
   for (const auto& [interaction, smoothing, dim, precision] : r.formulas()) {
     SCOPED_TRACE(interaction + "/" + smoothing + "/" + std::to_string(dim) + "D/" + precision);
     setup s;

@@ -2,7 +2,8 @@
 # Builds with the preset asan and runs tests of the library, of rows and of statistics: run_asan.sh SOURCE BUILD
 # clang compiles sanitized templates in half the time of g++. Left out are tests that only repeat these on more particles, which take hours
 # here (the brute force of a verification is slow), and the program, which takes long to compile. It can be
-# built and tried by hand: cmake --build --preset asan --target pairsum. Not reached besides: interactions of one's own.
+# built and tried by hand: cmake --build --preset asan --target pairsum. Not reached besides: interactions of one's own, and arithmetic
+# alone (smoothing kernels, monaghan94 by hand, the running error); oscillators are summed in 3D and double, formulas with fewer M and teams.
 set -eu
 source=$1 build=$2
 kernels='formula_matrix|edge_cases|few_particles|clouds_test|symmetries|integrat|lost|counting_sort|reorderer|indexer|hashed_grid'
