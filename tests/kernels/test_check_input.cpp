@@ -141,7 +141,9 @@ TEST_F(check_input_test, a_failing_load_changes_nothing) {
     EXPECT_EQ(sum->fingerprint(), before);
     EXPECT_EQ(sum->snapshot().x, was.x);
     sum->evaluate(w.get());
-    if (sum->traits().deterministic) EXPECT_EQ(sum->fingerprint(), before) << name;
+    if (sum->traits().deterministic) {
+      EXPECT_EQ(sum->fingerprint(), before) << name;
+    }
   }
 }
 
