@@ -62,8 +62,8 @@ if(PAIRSUM_ALL_ISAS)
 endif()
 
 # Which smoothing kernels each dimension and precision has. `covering` is for tests, which then compile half: the first kernel,
-# and of the others one that takes turns, so that each is built with each interaction in some of them. There are as many turns as
-# dimensions and precisions; if these, or so few kernels that all may be built, do not make it worth while, it is the same as `all`.
+# and of the others one that takes turns, so that each is built with each interaction in some of them. With fewer
+# dimensions or precisions than there are, or more kernels than these have turns, some would be left out: then it is the same as `all`.
 set(PAIRSUM_FORMULAS all CACHE STRING "Formulas of each dimension and precision: all, or covering (two smoothing kernels each)")
 if(NOT PAIRSUM_FORMULAS MATCHES "^(all|covering)$")
   message(FATAL_ERROR "PAIRSUM_FORMULAS is \"${PAIRSUM_FORMULAS}\"; valid: all, covering")

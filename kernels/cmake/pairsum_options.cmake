@@ -1,8 +1,7 @@
 # What every target of the project is compiled with.
 add_compile_options(-Wall -Wextra)
 # g++ 12 takes every `"word" + string` that it inlines for one that overlaps itself (GCC bug 105651), and finds what is not
-# initialised in its own headers of vector instructions (105593); clang warns of what it
-# finds uninitialised.
+# initialised in its own headers of vector instructions (105593).
 add_compile_options("$<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict;-Wno-maybe-uninitialized>")
 
 # What the library and those who use it must agree on, since its templates are compiled by both.

@@ -119,10 +119,9 @@ const auto& registry::find(const Entries& entries, const setup& s) const {
     if constexpr (requires { e.backend; })
       if (e.backend != s.backend) continue;
     const combination& c = e.what;
-    with_another_smoothing |= c.interaction == s.interaction && c.dim == s.dim && c.precision == s.precision;
-    if (c.interaction == s.interaction && (c.smoothing.empty() || c.smoothing == s.smoothing) && c.dim == s.dim &&
-        c.precision == s.precision)
-      return e;
+    const bool same_place = c.interaction == s.interaction && c.dim == s.dim && c.precision == s.precision;
+    if (same_place && (c.smoothing.empty() || c.smoothing == s.smoothing)) return e;
+    with_another_smoothing |= same_place;
     const std::string words = c.interaction + (c.smoothing.empty() ? "" : "/" + c.smoothing) + "/" +
                               std::to_string(c.dim) + "D/" + c.precision;
     if (std::ranges::find(built, words) == built.end()) built.push_back(words);
