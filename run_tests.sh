@@ -8,11 +8,13 @@ source harness/scripts/steps.sh
 
 usage() {
   cat <<'TEXT'
-usage: ./run_tests.sh [--no-install] [--jobs N] [--limit SECONDS]
+usage: ./run_tests.sh [--fast] [--no-install] [--jobs N] [--limit SECONDS]
 
 Installs the missing Debian packages, builds preset test and runs every test. The last lines are ctest's
 summary, the exit code is ctest's (0: all passed).
 
+  --fast           leave out what builds the project anew (sanitizers, races, packages, clang-tidy, counted instructions) and
+                   the full-size case: a few minutes once the build is there
   --no-install     do not look for missing packages
   --jobs N         processes of the build, and tests at a time (default: what cores and memory allow)
   --limit SECONDS  after so long no test goes on, and those left count as failed (default: 4500)
@@ -23,10 +25,11 @@ Exit code also: 2 bad input; 3 something needed is not installed; that of the bu
 TEXT
 }
 
-install=true jobs='' limit=4500
+install=true jobs='' limit=4500 fast=()
 while (($# > 0)); do
   case $1 in
     --no-install) install=false ;;
+    --fast) fast=(--label-exclude 'leg|full') ;;
     --jobs | --limit)
       need_value "$1" $#
       need_count "$1" "$2"
@@ -66,6 +69,6 @@ stop_time=$(date -d "now + $left seconds" +%H:%M:%S)
 # Tests run side by side: a thread that waits must leave its core to others.
 export OMP_WAIT_POLICY=passive
 status=0
-in_background ctest --preset test --no-tests=error --parallel "${jobs:-$(jobs_for 2000)}" \
+in_background ctest --preset test --no-tests=error "${fast[@]}" --parallel "${jobs:-$(jobs_for 2000)}" \
   --stop-time "$stop_time" || status=$?
 exit "$status"

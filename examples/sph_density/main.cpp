@@ -40,8 +40,8 @@ double mean_inside(const std::vector<double>& rho, const initial_condition& c) {
 }
 
 int main() {
-  registry all;
-  enrol_everywhere<density>(all, all_backends{});
+  registry all = registry::instance();
+  all.add(formula_entry_of<density>());
 
   const double dx = 1.0 / 16;
   const initial_condition water = make_case("lattice", {.dim = 3, .dx = dx, .H = 3 * dx, .state = "perturbed"});

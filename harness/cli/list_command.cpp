@@ -4,15 +4,16 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cases/case.hpp"
-#include "core/isa.hpp"
-#include "core/names.hpp"
-#include "core/precision.hpp"
+#include <pairsum/cases/case.hpp>
+#include <pairsum/core/isa.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/core/precision.hpp>
+#include <pairsum/integrators/integrator.hpp>
+#include <pairsum/sum/grids.hpp>
+#include <pairsum/sum/registry.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/plan/study.hpp"
-#include "integrators/integrator.hpp"
-#include "sum/grids.hpp"
-#include "sum/registry.hpp"
+#include "harness/plugin/plugins.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -37,19 +38,8 @@ std::vector<std::string> precisions_of(const backend_entry& b, const registry& r
 std::string precisions_text(const registry& r) {
   std::vector<std::string> words = r.precisions();
   for (std::string& word : words)
-    if (word == mixed_precision) word += " (vector backends)";
+    if (word == mixed_precision) word += " (on vector units)";
   return join(words);
-}
-
-/// Does each dimension, precision and interaction that takes a smoothing kernel have all of them?
-bool has_every_smoothing(const registry& r) {
-  std::size_t smoothed = 0, with_first = 0;
-  const std::vector<std::string> smoothings = r.smoothings();
-  for (const combination& f : r.formulas()) {
-    smoothed += !f.smoothing.empty();
-    with_first += !f.smoothing.empty() && f.smoothing == smoothings.front();
-  }
-  return smoothed == with_first * smoothings.size();
 }
 
 nlohmann::json as_json() {
@@ -117,12 +107,9 @@ void print_text() {
   for (const int d : r.dims()) dims.push_back(fmt::format("{}D", d));
   for (const missing_word& m : r.missing())
     fmt::print("unavailable       {} {}: not in this build, configure with -D{}=all\n", m.kind, m.word, m.option);
-  if (!has_every_smoothing(r))
-    fmt::print("unavailable       some smoothing kernels in each dimension and precision: configure with {}\n",
-               "-DPAIRSUM_FORMULAS=all");
   fmt::print(
       "interactions      {}\nsmoothing kernels {}\nprecisions        {}\ndimensions        {}\ngrids             {}\n"
-      "orders of memory  {}\nstates            {}\ninstruction sets  {} (of vector backends)\n",
+      "orders of memory  {}\nstates            {}\ninstruction sets  {}\n",
       join(r.interactions()), join(r.smoothings()), precisions_text(r), join(dims), join(grid_names()),
       join(memory_orders), join(case_states), join(isa_names()));
 }
@@ -134,6 +121,7 @@ void add_list_command(CLI::App& app, action& chosen) {
       app.add_subcommand("list", "What there is: backends, cases, integrators, plans, interactions, kernels, grids");
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "as JSON");
+  add_plugin_option(*command);
   command->callback([&chosen, json] {
     chosen = [json] {
       if (*json)

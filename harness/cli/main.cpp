@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/environment/environment.hpp"
+#include "harness/plugin/plugins.hpp"
 
 namespace {
 
@@ -51,6 +52,7 @@ int run_program(int argc, char** argv) {
     if (e.get_exit_code() == 0) return app.exit(e);
     throw pairsum::error(std::string(e.what()) + " (see pairsum --help)");
   }
+  pairsum::harness::load_named_plugins();
   return chosen();
 }
 

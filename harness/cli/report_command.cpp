@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/report/report.hpp"
 

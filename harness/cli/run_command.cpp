@@ -7,11 +7,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/plan/levels.hpp"
 #include "harness/plan/study.hpp"
+#include "harness/plugin/plugins.hpp"
 #include "harness/run/dry_run.hpp"
 #include "harness/run/study.hpp"
 #include "harness/run/worker.hpp"
@@ -42,7 +43,7 @@ constexpr level_option level_options[] = {
     {"integrator", "euler", "time stepping, a list"},
     {"dt", "1e-5", "time step in s"},
     {"grid", "hashed_grid", "grids, a list; those that take no M are measured once"},
-    {"isa", "best", "instruction sets of vector backends, a list; best: the best that this machine has; all"},
+    {"isa", "default", "scalar, best, instruction sets, a list; default: best for tiles, scalar for others; all"},
     {"block", "auto",
      "blocks of backends that have some, a list: auto, slab:4, pencil:4, brick:4 (4 cells wide), with :bundles or "
      ":morton behind for another order of cells"},
@@ -135,6 +136,8 @@ int start(const run_options& o, const given_options& given) {
                     : fmt::format("the plan compares {} builds: name the {} with --program; {} {} named", plan.builds,
                                   plan.builds == 2 ? "other one" : "others", o.programs.size(),
                                   o.programs.size() == 1 ? "is" : "are"));
+  if (!o.programs.empty() && !loaded_plugins().empty())
+    throw error("a study that compares builds takes no --plugin, which is of one build");
   if (given.at("profile") && o.profile.empty()) throw error("--profile takes the name of a file, not \"\"");
   if (given.at("out") && o.out.empty()) throw error("--out takes the name of a file, not \"\"");
   study_options options;
@@ -187,6 +190,7 @@ void add_run_command(CLI::App& app, action& chosen) {
   command->add_option("--out", o->out,
                       "rows file; appended to or resumed if it exists (default: RESULTS/STUDY/HOST-UTC-GIT.jsonl)");
   command->add_option("--results", o->results, "folder of the default rows file")->capture_default_str();
+  add_plugin_option(*command);
   command->footer(
       "Examples:\n"
       "  pairsum run quick                 a small version of everything, about a minute\n"

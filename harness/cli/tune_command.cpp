@@ -8,18 +8,19 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
-#include "core/isa.hpp"
-#include "core/names.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/isa.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/sum/grids.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/plan/levels.hpp"
 #include "harness/plan/variants.hpp"
+#include "harness/plugin/plugins.hpp"
 #include "harness/report/whole_file.hpp"
 #include "harness/run/interrupt.hpp"
 #include "harness/tune/profile_json.hpp"
 #include "harness/tune/tune_text.hpp"
-#include "sum/grids.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -43,7 +44,8 @@ constexpr tune_option tune_options[] = {
     {"grid", "all", "grids to choose from, a list, or all"},
     {"M", "6,7,8",
      "hash sizes to choose from, like 6,7 or 5..9; of the default a periodic box takes those that go round it"},
-    {"isa", "best", "instruction sets to choose from, for vector backends; all: of this build and machine"},
+    {"isa", "default",
+     "scalar, best, instruction sets to choose from; default: best for tiles, scalar for others; all"},
     {"block", "auto", "blocks to choose from, for backends that have some: auto, slab:4, ..."},
     {"precision", "double", "working precisions to choose from; what each costs in accuracy: docs/accuracy.md"},
     {"threads", "all", "numbers of threads to choose from; all: 1, 2, 4, ... and every core"},
@@ -124,6 +126,7 @@ void add_tune_command(CLI::App& app, action& chosen) {
       ->capture_default_str();
   const CLI::Option* const save =
       command->add_option("--save", o->save, "writes what was found to a profile, for pairsum run --profile");
+  add_plugin_option(*command);
   command->footer(
       "Examples:\n"
       "  pairsum tune --dx 0.012                           a minute\n"

@@ -5,17 +5,18 @@
 #include <map>
 #include <memory>
 
-#include "core/isa.hpp"
+#include <pairsum/core/isa.hpp>
+#include <pairsum/sum/grids.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/measure/memory.hpp"
 #include "harness/plan/plan.hpp"
 #include "harness/plan/variants.hpp"
 #include "harness/plan/words.hpp"
+#include "harness/plugin/plugins.hpp"
 #include "harness/rows/point_words.hpp"
 #include "harness/run/point_setup.hpp"
 #include "harness/verify/verify_all.hpp"
-#include "sum/grids.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -23,7 +24,7 @@ namespace {
 struct verify_options {
   run_request request;
   std::string case_name, dx, state = "perturbed", dim = "all", precision = "all", interaction = "all",
-                             smoothing = "all", backend = "all", grid = "all", isa = "all", block = "auto",
+                             smoothing = "all", backend = "all", grid = "all", isa = "scalar,best", block = "auto",
                              M = "2,3,6,7", threads = "1,2,3,7";
   bool each = false, all_M = true;
 };
@@ -68,9 +69,7 @@ class lines_printer {
     return cells_word(p);
   }
   /// What was chosen of isa and block.
-  static std::string extras(const setup& s) {
-    return (s.isa == "best" ? "" : " " + s.isa) + (s.block == "auto" ? "" : " " + s.block);
-  }
+  static std::string extras(const setup& s) { return (" " + s.isa) + (s.block == "auto" ? "" : " " + s.block); }
 
   void close() {
     if (here_ > 0 && !each_)
@@ -135,7 +134,9 @@ int verify(const verify_options& o) {
   q.smoothings = words_or_all("--smoothing", o.smoothing, r.smoothings());
   if (q.smoothings.empty()) q.smoothings = {std::string(no_smoothing)};
   q.grids = words_or_all("--grid", o.grid, to_words(grid_names()));
-  q.isas = words_or_all("--isa", o.isa, to_words(isa_names()));
+  std::vector<std::string> isas = to_words(isa_names());
+  isas.insert(isas.begin(), std::string(scalar_isa));
+  q.isas = words_or_all("--isa", o.isa, isas);
   q.blocks = parse_words("--block", o.block);
   std::vector<int> dims = o.dim == "all" ? r.dims() : parse_counts("--dim", o.dim, 0);
   if (o.dim == "all")
@@ -192,7 +193,7 @@ void add_verify_command(CLI::App& app, action& chosen) {
                                          "takes those that go round it")
                             ->capture_default_str();
   command->add_option("--grid", o->grid, "grids, or all")->capture_default_str();
-  command->add_option("--isa", o->isa, "instruction sets of vector backends, or all of this build and machine")
+  command->add_option("--isa", o->isa, "scalar, best, default, instruction sets, or all of this build and machine")
       ->capture_default_str();
   command->add_option("--block", o->block, "blocks of backends that have some, a list: auto, slab:4, ...")
       ->capture_default_str();
@@ -202,6 +203,7 @@ void add_verify_command(CLI::App& app, action& chosen) {
   command->add_option("--dim", o->dim, "dimensions, or all that are built")->capture_default_str();
   command->add_option("--seed", o->request.seed, "of the perturbation and of random places")->capture_default_str();
   command->add_flag("--each", o->each, "a line per sum, not per formula");
+  add_plugin_option(*command);
   command->callback([&chosen, o, M] {
     o->all_M = M->count() > 0;
     chosen = [o] { return verify(*o); };

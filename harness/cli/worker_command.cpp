@@ -4,7 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/run/interrupt.hpp"
 #include "harness/run/worker.hpp"

@@ -11,6 +11,7 @@
 
 #include "build_info.hpp"
 #include "harness/environment/machine.hpp"
+#include "harness/plugin/plugins.hpp"
 #include "harness/rows/hash_text.hpp"
 
 namespace pairsum::harness {
@@ -25,14 +26,17 @@ std::string compiler() {
 }
 
 std::map<std::string, std::string> libraries() {
-  return {{"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
-          {"OpenMP", fmt::format("{}", _OPENMP)},
-          {"oneTBB", TBB_runtime_version()},
-          {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
-          {"hwloc", fmt::format("{}.{}.{}", hwloc_get_api_version() >> 16, hwloc_get_api_version() >> 8 & 255u,
-                                hwloc_get_api_version() & 255u)},
-          {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-                                        NLOHMANN_JSON_VERSION_PATCH)}};
+  std::map<std::string, std::string> all{
+      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"OpenMP", fmt::format("{}", _OPENMP)},
+      {"oneTBB", TBB_runtime_version()},
+      {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+      {"hwloc", fmt::format("{}.{}.{}", hwloc_get_api_version() >> 16, hwloc_get_api_version() >> 8 & 255u,
+                            hwloc_get_api_version() & 255u)},
+      {"nlohmann_json",
+       fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)}};
+  for (const auto& [name, file] : loaded_plugins()) all["plugin " + name] = file;
+  return all;
 }
 
 }  // namespace

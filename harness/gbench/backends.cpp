@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "cases/case.hpp"
+#include <pairsum/cases/case.hpp>
+#include <pairsum/core/isa.hpp>
+#include <pairsum/sum/setup_of.hpp>
 #include "harness/environment/machine.hpp"
 #include "harness/gbench/bench.hpp"
 #include "harness/measure/stopwatch.hpp"
@@ -12,7 +14,6 @@
 #include "harness/rows/point_words.hpp"
 #include "harness/run/point_setup.hpp"
 #include "harness/verify/verifier.hpp"
-#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -95,9 +96,9 @@ void register_backends(const bench_request& r) {
       const backend_traits& traits = registry::instance().find_backend(p.backend).traits;
       std::string cells = cells_word(p);
       std::ranges::replace(cells, '=', ':');
-      const std::string name =
-          fmt::format("{}/{}/{}/threads:{}{}{}", p.backend, r.case_name, cells, p.threads,
-                      traits.vector ? "/isa:" + p.isa : "", traits.blocks ? "/block:" + p.block : "");
+      const std::string name = fmt::format("{}/{}/{}/threads:{}{}{}", p.backend, r.case_name, cells, p.threads,
+                                           traits.vector == (p.isa != scalar_isa) ? "" : "/isa:" + p.isa,
+                                           traits.blocks ? "/block:" + p.block : "");
       benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& s) { sum_benchmark(s, r, p); })
           ->UseManualTime()
           ->Unit(benchmark::kMillisecond);

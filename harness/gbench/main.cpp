@@ -3,13 +3,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/environment/environment.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/gbench/bench.hpp"
 #include "harness/measure/memory.hpp"
 #include "harness/plan/plan.hpp"
 #include "harness/plan/words.hpp"
+#include "harness/plugin/plugins.hpp"
 
 namespace {
 
@@ -18,7 +19,7 @@ using namespace pairsum::harness;
 /// Takes the program's own flags out of the command line; what is left is Google Benchmark's.
 bench_request parse(CLI::App& app, int argc, char** argv, std::vector<std::string>& rest) {
   bench_request r;
-  std::string M = "6,7", threads = "all", grid = "hashed_grid", isa = "best", block = "auto";
+  std::string M = "6,7", threads = "all", grid = "hashed_grid", isa = "default", block = "auto";
   app.allow_extras();
   app.set_help_flag("");
   app.add_option("--case", r.case_name);
@@ -29,7 +30,9 @@ bench_request parse(CLI::App& app, int argc, char** argv, std::vector<std::strin
   app.add_option("--grid", grid);
   app.add_option("--isa", isa);
   app.add_option("--block", block);
+  add_plugin_option(app);
   app.parse(argc, argv);
+  load_named_plugins();
   rest = app.remaining();
   r.M = parse_counts("--M", M, 0);
   r.threads = parse_counts("--threads", threads, usable_cores());
@@ -49,7 +52,7 @@ int run(int argc, char** argv) {
     if (w == "--help" || w == "-h")
       fmt::print(
           "pairsum_bench [--case NAME] [--dx M] [--state rest|perturbed] [--M 6,7] [--threads 1,2|all] "
-          "[--grid NAMES] [--isa NAMES] [--block auto,slab:4] [--benchmark_filter=REGEX ...]\n");
+          "[--grid NAMES] [--isa NAMES] [--block auto,slab:4] [--plugin FILE] [--benchmark_filter=REGEX ...]\n");
     words.push_back(w.data());
   }
   int n = static_cast<int>(words.size());
@@ -57,6 +60,7 @@ int run(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(n, words.data())) return 2;
   keep_freed_memory();
   benchmark::AddCustomContext("pairsum", describe_build());
+  for (const auto& [name, file] : loaded_plugins()) benchmark::AddCustomContext("plugin " + name, file);
   register_backends(r);
   register_parts();
   benchmark::RunSpecifiedBenchmarks();

@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "cases/case.hpp"
-#include "core/random.hpp"
-#include "grid/counting_sort.hpp"
-#include "grid/hashed_grid.hpp"
+#include <pairsum/cases/case.hpp>
+#include <pairsum/core/random.hpp>
+#include <pairsum/grid/counting_sort.hpp>
+#include <pairsum/grid/hashed_grid.hpp>
+#include <pairsum/smoothing/wendland_c2.hpp>
 #include "harness/gbench/bench.hpp"
-#include "smoothing/wendland_c2.hpp"
 
 namespace pairsum::harness {
 namespace {

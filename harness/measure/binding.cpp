@@ -9,7 +9,7 @@
 #include <cstring>
 #include <map>
 
-#include "core/names.hpp"
+#include <pairsum/core/names.hpp>
 
 namespace pairsum::harness {
 

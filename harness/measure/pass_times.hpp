@@ -3,7 +3,7 @@
 #include <chrono>
 #include <vector>
 
-#include "core/pass_observer.hpp"
+#include <pairsum/core/pass_observer.hpp>
 
 namespace pairsum::harness {
 

@@ -3,7 +3,7 @@
 #include <omp.h>
 #include <tbb/task_scheduler_observer.h>
 
-#include "core/tbb_arena.hpp"
+#include <pairsum/core/tbb_arena.hpp>
 #include "harness/measure/binding.hpp"
 
 namespace pairsum::harness {

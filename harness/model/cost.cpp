@@ -8,7 +8,7 @@ namespace {
 double flops_of(const cost_question& q) {
   const auto number = [](std::uint64_t n) { return static_cast<double>(n); };
   const pair_flops& pair = q.formula.counted;
-  const double evaluations = q.backend.evaluations_per_pair * number(q.work.pairs_fluid_fluid);
+  const double evaluations = q.backend.evaluations_per_pair() * number(q.work.pairs_fluid_fluid);
   // The work is counted for boundary particles that act up to H; of others, no number of pairs is known, and of those
   // that do not act at all, no number of tests.
   const double walls = q.formula.boundary_reach >= 1 ? number(q.work.pairs_fluid_boundary) : 0;
@@ -24,7 +24,7 @@ double bytes_of(const cost_question& q) {
   const double read = fluid * q.formula.fluid_bytes, data = read + rates;
   const int sweeps = data > static_cast<double>(q.last_level_cache_bytes) ? q.backend.sweeps(q.formula.dim) : 1;
   const double list = q.backend.keeps_pairs ? static_cast<double>(q.work.pairs_fluid_fluid) * sizeof(std::uint32_t) : 0;
-  return q.backend.accumulates ? sweeps * (read + 2 * rates) + list : sweeps * read + rates + list;
+  return q.backend.accumulates() ? sweeps * (read + 2 * rates) + list : sweeps * read + rates + list;
 }
 
 }  // namespace
@@ -42,11 +42,12 @@ cost_bound bound_of(const cost_question& q) {
 }
 
 std::string contradiction(const backend_traits& declared, const work_counts& counted) {
-  const std::uint64_t expected = static_cast<std::uint64_t>(declared.evaluations_per_pair) * counted.pairs_fluid_fluid +
-                                 counted.pairs_fluid_boundary;
+  const std::uint64_t expected =
+      static_cast<std::uint64_t>(declared.evaluations_per_pair()) * counted.pairs_fluid_fluid +
+      counted.pairs_fluid_boundary;
   if (counted.pairs_evaluated == expected) return {};
   return std::string(declared.name) + " evaluates the formula " + std::to_string(counted.pairs_evaluated) +
-         " times; by its evaluations_per_pair of " + std::to_string(declared.evaluations_per_pair) + " it would be " +
+         " times; by its evaluations_per_pair of " + std::to_string(declared.evaluations_per_pair()) + " it would be " +
          std::to_string(expected);
 }
 

@@ -2,9 +2,10 @@
 #include <cstdint>
 #include <string>
 
+#include <pairsum/sum/backend_traits.hpp>
+#include <pairsum/sum/costs.hpp>
+#include <pairsum/sum/work_counts.hpp>
 #include "harness/model/peaks.hpp"
-#include "sum/backend.hpp"
-#include "sum/costs.hpp"
 
 namespace pairsum::harness {
 

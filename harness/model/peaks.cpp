@@ -8,8 +8,8 @@
 #include <limits>
 #include <string_view>
 
-#include "core/names.hpp"
-#include "core/precision.hpp"
+#include <pairsum/core/names.hpp>
+#include <pairsum/core/precision.hpp>
 #include "harness/measure/stopwatch.hpp"
 
 namespace pairsum::harness {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/team.hpp"
+#include <pairsum/core/team.hpp>
 
 namespace pairsum::harness {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
-#include "core/isa.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/isa.hpp>
 #include "harness/plan/variants.hpp"
 #include "harness/plan/words.hpp"
 
@@ -41,15 +41,14 @@ level words(std::vector<std::string> run_request::*member) {
           },
           [member](const run_request& r) { return json(r.*member); }};
 }
-/// Instruction sets; "all" is every one that build and machine have.
+/// Instruction sets; "all" is scalar and every one that build and machine have.
 level isas() {
   level one = words(&run_request::isas);
   one.read = [read = one.read](run_request& r, const std::string& key, const std::string& text, int cores) {
     read(r, key, text, cores);
     if (r.isas != std::vector<std::string>{"all"}) return;
-    const auto all = isa_names();
-    r.isas.assign(all.begin(), all.end());
-    if (all.empty()) r.isas = {std::string(best_isa)};
+    r.isas = {std::string(scalar_isa)};
+    for (const std::string_view isa : isa_names()) r.isas.emplace_back(isa);
   };
   return one;
 }

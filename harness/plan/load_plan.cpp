@@ -4,8 +4,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
 #include "harness/plan/study.hpp"
 
 namespace pairsum::harness {

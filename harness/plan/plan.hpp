@@ -3,8 +3,8 @@
 #include <string_view>
 #include <vector>
 
+#include <pairsum/sum/registry.hpp>
 #include "harness/rows/row.hpp"
-#include "sum/registry.hpp"
 
 namespace pairsum::harness {
 
@@ -22,8 +22,8 @@ struct run_request {
   std::vector<std::string> orders{"lattice"}, precisions{"double"}, interactions{"ferrari09"},
       smoothings{"wendland_c2"}, integrators{"euler"}, granularities{"default"};
   std::vector<std::string> grids{"hashed_grid"};
-  std::vector<std::string> isas{"best"};    ///< of vector backends
-  std::vector<std::string> blocks{"auto"};  ///< of backends that go over blocks
+  std::vector<std::string> isas{"default"};  ///< scalar, best, sets, or what each backend is made for
+  std::vector<std::string> blocks{"auto"};   ///< of backends that go over blocks
   std::string outside = "error";
   double dt = 1e-5;
   int steps = 5;

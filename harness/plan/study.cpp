@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/plan/levels.hpp"
 #include "harness/rows/hash_text.hpp"
 

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 
-#include "core/isa.hpp"
-#include "core/names.hpp"
-#include "core/precision.hpp"
+#include <pairsum/core/isa.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/core/precision.hpp>
+#include <pairsum/sum/grids.hpp>
 #include "harness/environment/environment.hpp"
-#include "sum/grids.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -19,18 +20,11 @@ void add_once(std::vector<T>& all, T one) {
   if (std::ranges::find(all, one) == all.end()) all.push_back(std::move(one));
 }
 
-/// The isa that a word means for a backend, as it stands in a row.
-std::string isa_of(const std::string& word, const backend_traits& b) {
-  if (!b.vector) return compiled_isa();
-  if (word != "best") return word;
-  const auto names = isa_names();
-  return names.empty() ? word : std::string(names.front());
-}
-
-/// Can the backend sum the world at all? Asked with a tiny world, so that no wrong size speaks for it.
-bool is_built(const std::string& backend, int dim, const point& world, const registry& all) {
+/// The setup of a tiny world, so that no wrong size speaks for what is built.
+setup tiny(const std::string& backend, const std::string& isa, int dim, const point& world) {
   setup s;
   s.backend = backend;
+  s.isa = isa;
   s.interaction = world.interaction;
   s.smoothing = world.smoothing;
   s.precision = world.precision;
@@ -39,12 +33,19 @@ bool is_built(const std::string& backend, int dim, const point& world, const reg
   s.constants.H = 0.1;
   s.omega_low.assign(static_cast<std::size_t>(dim), 0.0);
   s.omega_high.assign(static_cast<std::size_t>(dim), 1.0);
+  return s;
+}
+
+/// The isa that a word means for a backend in a world, as it stands in a row; none if it is not to be had, and then
+/// why.
+std::optional<std::string> isa_of(const std::string& backend, const std::string& word, int dim, const point& world,
+                                  const registry& all, std::string* why = nullptr) {
   try {
-    all.make_summation(s);
-  } catch (const error&) {
-    return false;
+    return std::string(all.make_summation(tiny(backend, word, dim, world))->isa());
+  } catch (const error& e) {
+    if (why != nullptr) *why = e.what();
+    return std::nullopt;
   }
-  return true;
 }
 
 /// Is any of the request's backends built for any of its precisions, interactions and smoothing kernels?
@@ -56,7 +57,7 @@ bool is_any_built(const run_request& r, const registry& all) {
         world.precision = precision;
         world.interaction = interaction;
         world.smoothing = all.is_smoothed(interaction) ? smoothing : std::string(no_smoothing);
-        if (!built_backends(r, world, all).empty()) return true;
+        if (!ways_of(r, world, all).empty()) return true;
       }
   return false;
 }
@@ -76,15 +77,15 @@ run_request with_one(const run_request& r, std::vector<std::string> run_request:
   return one;
 }
 
-/// Why nothing that a request asks for is built.
+/// Why nothing that a request asks for is built: what the first of its backends says.
 std::string reason_of(const run_request& r, const registry& all) {
-  run_request other = r;
-  other.smoothings = all.smoothings();
-  if (has_smoothed(r, all) && is_any_built(other, all))
-    return "; with other smoothing kernels it is, configure with -DPAIRSUM_FORMULAS=all";
-  return r.precisions == std::vector{std::string(mixed_precision)}
-             ? ", which is for interactions of real numbers on vector units"
-             : "";
+  point world;
+  world.precision = r.precisions.front();
+  world.interaction = r.interactions.front();
+  world.smoothing = has_smoothed(r, all) ? r.smoothings.front() : std::string(no_smoothing);
+  std::string why;
+  isa_of(r.backends.front(), r.isas.front(), r.dim, world, all, &why);
+  return why.empty() ? "" : ": " + why;
 }
 
 }  // namespace
@@ -103,23 +104,18 @@ std::vector<std::string> available_backends(const registry& all) {
   return names;
 }
 
-std::vector<backend_way> ways_of(const run_request& r, const std::vector<std::string>& backends, const registry& all) {
+std::vector<backend_way> ways_of(const run_request& r, const point& world, const registry& all) {
   std::vector<backend_way> ways;
-  for (const std::string& backend : backends) {
+  for (const std::string& backend : r.backends) {
     const backend_traits& traits = all.find_backend(backend).traits;
-    for (const std::string& isa : r.isas)
+    for (const std::string& word : r.isas) {
+      const auto isa = isa_of(backend, word, r.dim, world, all);
+      if (!isa) continue;
       for (const std::string& block : r.blocks)
-        add_once(ways, backend_way{backend, isa_of(isa, traits), traits.blocks ? block : std::string(no_block)});
+        add_once(ways, backend_way{backend, *isa, traits.blocks ? block : std::string(no_block)});
+    }
   }
   return ways;
-}
-
-std::vector<std::string> built_backends(const run_request& r, const point& world, const registry& all) {
-  std::vector<std::string> built;
-  for (const std::string& backend : r.backends) all.find_backend(backend);
-  for (const std::string& backend : r.backends)
-    if (is_built(backend, r.dim, world, all)) add_once(built, backend);
-  return built;
 }
 
 void leave_out_unbuilt(run_request& r, std::vector<std::string> run_request::*words, const registry& all) {
@@ -139,6 +135,13 @@ void check_built(const run_request& r, const registry& all) {
                                 has_smoothed(one, all) ? " with " + join(one.smoothings) : std::string(), r.dim,
                                 join(one.precisions), reason_of(one, all)));
     }
+  if (r.backends.size() == all.backends().size()) return;  // nobody asked for each by name
+  for (const std::string& backend : r.backends) {
+    run_request one = r;
+    one.backends = {backend};
+    if (!is_any_built(one, all))
+      throw error(fmt::format("backend {} cannot be had with isa {}{}", backend, join(r.isas), reason_of(one, all)));
+  }
 }
 
 }  // namespace pairsum::harness

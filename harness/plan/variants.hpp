@@ -25,13 +25,9 @@ struct backend_way {
 /// The backends that this build has and the machine lets it use.
 std::vector<std::string> available_backends(const registry& all = registry::instance());
 
-/// Every way in which the request runs these backends: `isa` varies for vector backends alone, for the others it is
-/// what the build was compiled for; blocks vary for those that have some.
-std::vector<backend_way> ways_of(const run_request& r, const std::vector<std::string>& backends, const registry& all);
-
-/// The request's backends that were built for a world's precision, formula and dimension. Throws pairsum::error for a
-/// backend that is unknown or unavailable.
-std::vector<std::string> built_backends(const run_request& r, const point& world, const registry& all);
+/// Every way in which the request's backends sum a world: with each isa that is to be had in it, and with each block if
+/// they have some. Throws pairsum::error for a backend that is unknown or unavailable.
+std::vector<backend_way> ways_of(const run_request& r, const point& world, const registry& all);
 
 /// Leaves out the precisions, interactions or smoothing kernels that none of the request's backends was built for
 /// together with its other words: what nobody asked for by name. If there are no others they stay, and check_built()

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 
 namespace pairsum::harness {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/names.hpp"
+#include <pairsum/core/names.hpp>
 #include "harness/report/strategies.hpp"
 
 namespace pairsum::harness {

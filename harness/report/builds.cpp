@@ -1,6 +1,6 @@
 #include "harness/report/builds.hpp"
 
-#include "core/names.hpp"
+#include <pairsum/core/names.hpp>
 #include "harness/rows/same_build.hpp"
 
 namespace pairsum::harness {

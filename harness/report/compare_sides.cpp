@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
 #include "harness/report/builds.hpp"
 #include "harness/report/compared_points.hpp"
 #include "harness/report/compared_side.hpp"

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include <pairsum/core/isa.hpp>
+#include <pairsum/sum/registry.hpp>
 #include "harness/report/self_tests.hpp"
-#include "sum/registry.hpp"
 
 namespace pairsum::harness {
 
@@ -26,6 +27,7 @@ ratio_estimate ratio_of(const measurements& all, const measured_point& base, con
 }
 
 bool chooses_isa(const point& p) {
+  if (p.isa == scalar_isa) return true;
   const std::string backend = working_backend(p.backend);
   return std::ranges::any_of(registry::instance().backends(),
                              [&](const backend_entry& b) { return b.traits.name == backend && b.traits.vector; });

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "core/names.hpp"
+#include <pairsum/core/names.hpp>
 
 namespace pairsum::harness {
 namespace {

@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
+#include <pairsum/sum/registry.hpp>
 #include "harness/report/self_tests.hpp"
-#include "sum/registry.hpp"
 
 namespace pairsum::harness {
 namespace {

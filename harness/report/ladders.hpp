@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include <pairsum/sum/backend_traits.hpp>
 #include "harness/report/evaluations.hpp"
 #include "harness/report/measured.hpp"
-#include "sum/backend.hpp"
 
 namespace pairsum::harness {
 

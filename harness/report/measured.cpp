@@ -4,7 +4,7 @@
 #include <set>
 #include <tuple>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/report/builds.hpp"
 #include "harness/report/compared_points.hpp"
 #include "harness/report/step_means.hpp"

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/sum/registry.hpp>
 #include "harness/model/cost.hpp"
 #include "harness/report/self_tests.hpp"
-#include "sum/registry.hpp"
 
 namespace pairsum::harness {
 namespace {

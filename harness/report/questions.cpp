@@ -4,7 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/names.hpp"
+#include <pairsum/core/names.hpp>
 #include "harness/report/answer.hpp"
 #include "harness/report/ladders.hpp"
 #include "harness/report/self_tests.hpp"

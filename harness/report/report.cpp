@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/report/summary.hpp"
 #include "harness/report/tables.hpp"
 #include "harness/report/whole_file.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
 #include "harness/report/answer.hpp"
 #include "harness/report/comparisons.hpp"
 #include "harness/report/models.hpp"

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 
 namespace pairsum::harness {
 namespace {

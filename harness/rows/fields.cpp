@@ -5,7 +5,7 @@
 #include <limits>
 #include <string_view>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 
 namespace pairsum::harness {
 namespace {

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <utility>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 
 namespace pairsum::harness {
 namespace {

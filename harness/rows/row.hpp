@@ -35,7 +35,8 @@ struct point {
   int M = 0;  ///< 0 (null in JSON) where the grid takes none
   int threads = 1;
   std::string granularity;     ///< how its loops are shared out, "dynamic:32"; "none" for serial backends
-  std::string isa;             ///< that a vector backend used; for the others what the build was compiled for
+  std::string isa;             ///< of the vector units that it used, or "scalar"; rows of builds that had no such
+                               ///< choice have what scalar backends were compiled for
   std::string block = "none";  ///< blocks of cells, "auto" or "slab:4"; "none" for backends without
   bool operator==(const point&) const = default;
 };

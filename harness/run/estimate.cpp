@@ -5,11 +5,11 @@
 #include <limits>
 #include <map>
 
-#include "cases/case.hpp"
-#include "core/workers.hpp"
+#include <pairsum/cases/case.hpp>
+#include <pairsum/core/workers.hpp>
+#include <pairsum/sum/setup_of.hpp>
 #include "harness/environment/machine.hpp"
 #include "harness/measure/stopwatch.hpp"
-#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 namespace {

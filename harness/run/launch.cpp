@@ -13,7 +13,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/measure/cpu_time.hpp"
 #include "harness/run/interrupt.hpp"
 #include "harness/run/worker.hpp"

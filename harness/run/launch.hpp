@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <functional>
 
+#include <pairsum/sum/registry.hpp>
 #include "harness/run/order.hpp"
-#include "sum/registry.hpp"
 
 namespace pairsum::harness {
 

@@ -1,9 +1,9 @@
 #include "harness/run/point_setup.hpp"
 
+#include <pairsum/sum/grids.hpp>
+#include <pairsum/sum/setup_of.hpp>
 #include "harness/environment/machine.hpp"
 #include "harness/plan/plan.hpp"
-#include "sum/grids.hpp"
-#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -24,7 +24,7 @@ setup named(const point& p, setup s, const registry& all) {
   s.precision = p.precision;
   s.grid = p.grid;
   if (p.M > 0) s.M = p.M;
-  if (all.find_backend(p.backend).traits.vector) s.isa = p.isa;
+  s.isa = p.isa;
   if (p.block != no_block) s.block = p.block;
   fit_to_machine(s);
   return s;

@@ -1,9 +1,9 @@
 #pragma once
-#include "cases/case.hpp"
+#include <pairsum/cases/case.hpp>
+#include <pairsum/sum/registry.hpp>
 #include "harness/plan/plan.hpp"
 #include "harness/rows/row.hpp"
 #include "harness/verify/verify_all.hpp"
-#include "sum/registry.hpp"
 
 namespace pairsum::harness {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/environment/environment.hpp"
 #include "harness/rows/same_build.hpp"
 #include "harness/run/file_lock.hpp"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/environment/environment.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/measure/cpu_time.hpp"
@@ -31,8 +31,10 @@ namespace {
 /// What differs, for the message.
 std::string other_build(const environment_row& there, const environment_row& here) {
   const auto say = [](const environment_row& e) {
-    return fmt::format("{}, git {}{}, {}, {}, binding {}", e.host, e.git, e.dirty ? " with uncommitted changes" : "",
-                       e.compiler, e.flags, e.binding);
+    std::string text = fmt::format("{}, git {}{}, {}, {}, binding {}", e.host, e.git,
+                                   e.dirty ? " with uncommitted changes" : "", e.compiler, e.flags, e.binding);
+    for (const auto& [plugin, file] : plugins_of(e)) text += fmt::format(", {}: {}", plugin, file);
+    return text;
   };
   return fmt::format("{}; this is {}", say(there), say(here));
 }

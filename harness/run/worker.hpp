@@ -1,6 +1,6 @@
 #pragma once
+#include <pairsum/sum/registry.hpp>
 #include "harness/run/order.hpp"
-#include "sum/registry.hpp"
 
 namespace pairsum::harness {
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/granularity.hpp"
+#include <pairsum/core/granularity.hpp>
+#include <pairsum/integrators/integrator.hpp>
+#include <pairsum/sum/check.hpp>
 #include "harness/environment/machine.hpp"
 #include "harness/measure/memory.hpp"
 #include "harness/measure/pass_times.hpp"
@@ -14,8 +16,6 @@
 #include "harness/rows/add_thread_times.hpp"
 #include "harness/run/interrupt.hpp"
 #include "harness/run/point_setup.hpp"
-#include "integrators/integrator.hpp"
-#include "sum/check.hpp"
 
 namespace pairsum::harness {
 
@@ -80,8 +80,8 @@ work_row world::work_of(const point& p, summation& s) {
                   w.pairs_fluid_fluid,
                   w.pairs_fluid_boundary,
                   {}};
-    if (s.block() != no_block) {
-      const std::size_t lanes = s.lanes();
+    const std::size_t lanes = s.lanes();
+    if (s.block() != no_block || lanes > 1) {
       const std::uint64_t vectors = w.vectors_of(lanes);
       const double room = static_cast<double>(lanes * vectors);
       at->second.vector_units = {s.block(), lanes, vectors,

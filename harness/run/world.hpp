@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "cases/case.hpp"
+#include <pairsum/cases/case.hpp>
 #include "harness/measure/binding.hpp"
 #include "harness/measure/counters.hpp"
 #include "harness/plan/plan.hpp"

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <utility>
 
-#include "sum/summation.hpp"
+#include <pairsum/sum/summation.hpp>
 
 namespace pairsum::harness {
 
@@ -32,6 +32,7 @@ class forwarding_summation : public summation {
   std::optional<unfolded_tests> count_unfolded_tests() const override { return inner_->count_unfolded_tests(); }
   std::string block() const override { return inner_->block(); }
   std::size_t lanes() const override { return inner_->lanes(); }
+  std::string_view isa() const override { return inner_->isa(); }
   work_counts count_work() override { return inner_->count_work(); }
   rate_table rates() const override { return inner_->rates(); }
   std::uint64_t fingerprint() const override { return inner_->fingerprint(); }

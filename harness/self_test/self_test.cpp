@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/self_test/corrupt_summation.hpp"
 #include "harness/self_test/slowed_summation.hpp"
 
@@ -33,7 +33,7 @@ registry with_self_test(const registry& base) {
     backend_traits traits = original->traits;
     traits.name = e.word;
     traits.description = e.description;
-    extended.enrol_wrapper(traits, std::string(e.base), wrap);
+    extended.add_wrapper(traits, std::string(e.base), wrap);
   }
   return extended;
 }

@@ -1,6 +1,6 @@
 #pragma once
+#include <pairsum/sum/registry.hpp>
 #include "harness/self_test/entries.hpp"
-#include "sum/registry.hpp"
 
 namespace pairsum::harness {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 
 namespace pairsum::harness {
 

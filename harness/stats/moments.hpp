@@ -3,7 +3,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 
 namespace pairsum::harness {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <unsupported/Eigen/SpecialFunctions>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 
 namespace pairsum::harness {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/granularity.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/granularity.hpp>
 #include "harness/environment/machine.hpp"
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"

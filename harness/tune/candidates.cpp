@@ -6,8 +6,9 @@
 #include <functional>
 #include <utility>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/isa.hpp>
+#include <pairsum/core/names.hpp>
 
 namespace pairsum::harness {
 namespace {
@@ -22,7 +23,7 @@ std::vector<std::pair<std::string, std::string>> words_of(const point& p, const 
   const backend_traits& traits = all.find_backend(p.backend).traits;
   std::vector<std::pair<std::string, std::string>> words{{"backend", p.backend}, {"grid", p.grid}};
   if (p.M > 0) words.emplace_back("M", std::to_string(p.M));
-  if (traits.vector) words.emplace_back("isa", p.isa);
+  if (traits.vector || p.isa != scalar_isa) words.emplace_back("isa", p.isa);
   if (p.block != no_block) words.emplace_back("block", p.block);
   words.emplace_back("precision", p.precision);
   words.emplace_back("threads", std::to_string(p.threads));
@@ -56,7 +57,9 @@ std::vector<point> candidates_of(const run_request& r, const registry& all) {
   return order;
 }
 
-std::string family_of(const point& p) { return p.backend + " " + p.precision; }
+std::string family_of(const point& p) {
+  return p.backend + " " + p.precision + (p.isa == scalar_isa ? "" : " " + p.isa);
+}
 
 std::string options_of(const point& p, const registry& all) {
   std::string text;

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/environment/environment.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/plan/levels.hpp"

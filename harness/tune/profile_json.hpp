@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
+#include <pairsum/sum/profile.hpp>
 #include "harness/rows/row.hpp"
 #include "harness/tune/tune.hpp"
-#include "sum/profile.hpp"
 
 namespace pairsum::harness {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
 #include "harness/environment/machine.hpp"
 #include "harness/measure/memory.hpp"
 #include "harness/measure/stopwatch.hpp"

@@ -1,4 +1,5 @@
 #include "harness/tune/tune_text.hpp"
+#include <pairsum/core/isa.hpp>
 
 #include <fmt/format.h>
 
@@ -21,7 +22,7 @@ std::string count_of(std::size_t n, const char* what) { return fmt::format("{} {
 
 std::string what_of(const point& p, const registry& all) {
   const backend_traits& traits = all.find_backend(p.backend).traits;
-  return place_words(p) + (traits.vector ? " " + p.isa : "") + " " + p.precision;
+  return place_words(p) + (traits.vector || p.isa != scalar_isa ? " " + p.isa : "") + " " + p.precision;
 }
 
 /// A line of the ladder.

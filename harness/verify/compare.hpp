@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "sum/rate_table.hpp"
+#include <pairsum/sum/rate_table.hpp>
 
 namespace pairsum::harness {
 

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 
 namespace pairsum::harness {
 namespace {

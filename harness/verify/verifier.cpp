@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
-#include "core/random.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/random.hpp>
 #include "harness/verify/pack.hpp"
 
 namespace pairsum::harness {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include <pairsum/sum/registry.hpp>
 #include "harness/verify/compare.hpp"
 #include "harness/verify/shared_store.hpp"
-#include "sum/registry.hpp"
 
 namespace pairsum::harness {
 

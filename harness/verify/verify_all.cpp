@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <map>
 
+#include <pairsum/sum/setup_of.hpp>
 #include "harness/measure/worker_team.hpp"
 #include "harness/verify/verifier.hpp"
-#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "cases/case.hpp"
-#include "sum/registry.hpp"
+#include <pairsum/cases/case.hpp>
+#include <pairsum/sum/registry.hpp>
 
 namespace pairsum::harness {
 

@@ -1,12 +1,12 @@
-#include "cases/case.hpp"
+#include <pairsum/cases/case.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
-#include "core/random.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/core/random.hpp>
 
 namespace pairsum {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "cases/unit_cube.hpp"
-#include "core/random.hpp"
+#include <pairsum/cases/unit_cube.hpp>
+#include <pairsum/core/random.hpp>
 
 namespace pairsum {
 

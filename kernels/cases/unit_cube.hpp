@@ -1,11 +1,12 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <string>
 
-#include "cases/case.hpp"
-#include "core/error.hpp"
-#include "core/memory.hpp"
-#include "core/names.hpp"
+#include <pairsum/cases/case.hpp>
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/memory.hpp>
+#include <pairsum/core/names.hpp>
 
 namespace pairsum {
 
@@ -28,6 +29,20 @@ inline initial_condition unit_cube(std::string_view name, const case_parameters&
   p.rho.assign(n, made.eos.rho0);
   p.m.assign(n, made.eos.rho0 / count);
   p.kind.assign(n, particle_kind::fluid);
+  return made;
+}
+
+/// Fluid at rest on a cubic lattice in the unit cube, no boundary: round(1/dx)^dim particles at the centres of cells of
+/// width 1/round(1/dx), ids x fastest.
+inline initial_condition unit_lattice(std::string_view name, const case_parameters& c) {
+  const double per_axis = std::round(1 / c.dx);
+  initial_condition made = unit_cube(name, c, std::pow(per_axis, c.dim));
+  particle_table& p = made.particles;
+  const auto n = static_cast<std::size_t>(per_axis);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    std::size_t rest = i;
+    for (int d = 0; d < c.dim; ++d, rest /= n) p.x[d][i] = (static_cast<double>(rest % n) + 0.5) / per_axis;
+  }
   return made;
 }
 

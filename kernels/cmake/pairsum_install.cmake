@@ -1,16 +1,13 @@
 # `cmake --install` puts the library, its headers and a package for find_package(pairsum) under the prefix.
 include(CMakePackageConfigHelpers)
 
-# In this tree, too, users write <pairsum/pairsum.hpp>.
-pairsum_write(${CMAKE_CURRENT_BINARY_DIR}/umbrella/pairsum/pairsum.hpp "// generated\n#pragma once\n#include <pairsum.hpp>\n")
-
 set(headers ${CMAKE_INSTALL_INCLUDEDIR}/pairsum)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/pairsum)
 set_target_properties(pairsum_kernels PROPERTIES EXPORT_NAME pairsum OUTPUT_NAME pairsum)
 set_target_properties(pairsum_options PROPERTIES EXPORT_NAME options)
 install(TARGETS pairsum_kernels pairsum_options EXPORT pairsumTargets
-  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${headers})
-install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ ${CMAKE_CURRENT_BINARY_DIR}/enrolment/include/ DESTINATION ${headers}
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ ${CMAKE_CURRENT_BINARY_DIR}/generated/pairsum/ DESTINATION ${headers}
   FILES_MATCHING PATTERN "*.hpp" PATTERN cmake EXCLUDE)
 install(EXPORT pairsumTargets NAMESPACE pairsum:: DESTINATION ${package})
 

@@ -4,8 +4,8 @@
 #include <tuple>
 #include <utility>
 
-#include "core/column.hpp"
-#include "core/vec.hpp"
+#include <pairsum/core/column.hpp>
+#include <pairsum/core/vec.hpp>
 
 /// A few quantities (what a particle brings to a pair, what a pair gives back) kept as one column per scalar: either a
 /// struct that lists its fields once, in `static constexpr auto fields()`, a tuple of member pointers to scalars or

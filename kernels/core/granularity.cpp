@@ -1,23 +1,23 @@
-#include "core/granularity.hpp"
+#include <pairsum/core/granularity.hpp>
 
 #include <charconv>
 #include <vector>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 
 namespace pairsum {
 namespace {
 
 struct named {
   std::string_view name;
-  schedule what;
+  loop_schedule what;
   runtime where;
 };
 
 constexpr named schedules[] = {
-    {"dynamic", schedule::dynamic, runtime::omp}, {"static", schedule::fixed, runtime::omp},
-    {"guided", schedule::guided, runtime::omp},   {"auto", schedule::automatic, runtime::tbb},
-    {"simple", schedule::simple, runtime::tbb},   {"static", schedule::fixed, runtime::tbb},
+    {"dynamic", loop_schedule::dynamic, runtime::omp}, {"static", loop_schedule::fixed, runtime::omp},
+    {"guided", loop_schedule::guided, runtime::omp},   {"auto", loop_schedule::automatic, runtime::tbb},
+    {"simple", loop_schedule::simple, runtime::tbb},   {"static", loop_schedule::fixed, runtime::tbb},
 };
 
 [[noreturn]] void reject(std::string_view word, runtime r) {
@@ -45,7 +45,7 @@ granularity parse_granularity(std::string_view word, runtime r) {
     granularity g{s.what, 0};
     const char* const end = word.data() + word.size();
     const auto [stop, failed] = std::from_chars(word.data() + colon + 1, end, g.chunk);
-    const std::size_t least = s.what == schedule::fixed && r == runtime::omp ? 0 : 1;
+    const std::size_t least = s.what == loop_schedule::fixed && r == runtime::omp ? 0 : 1;
     if (failed != std::errc{} || stop != end || g.chunk < least || g.chunk > 1000000000) reject(word, r);
     return g;
   }

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/team.hpp"
+#include <pairsum/core/team.hpp>
 
 namespace pairsum {
 

@@ -1,10 +1,10 @@
-#include "core/isa.hpp"
+#include <pairsum/core/isa.hpp>
 
 #include <algorithm>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
 
 namespace pairsum {
 namespace {
@@ -57,7 +57,7 @@ std::vector<std::string_view> isa_names() {
 }
 
 void check_isa(std::string_view isa) {
-  std::vector<std::string_view> valid{best_isa};
+  std::vector<std::string_view> valid{scalar_isa, best_isa};
   for (const std::string_view name : isa_names()) valid.push_back(name);
   for (const known_isa& k : known()) {
     if (k.name != isa || (k.built && k.runs)) continue;

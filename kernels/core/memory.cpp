@@ -1,8 +1,8 @@
-#include "core/memory.hpp"
+#include <pairsum/core/memory.hpp>
 
 #include <unistd.h>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 
 namespace pairsum {
 

@@ -13,30 +13,38 @@ class pass_observer {
   virtual void work_begins(unsigned pass, int thread) = 0;  ///< by thread `thread` of the team; maybe several times
   virtual void work_ends(unsigned pass, int thread) = 0;    ///< before the thread waits for the others
   virtual void pass_ends(unsigned pass) = 0;                ///< by the caller's thread, when all are done
+  /// Does it want to know of every unit of work? Asked once per sum.
+  virtual bool wants_units() const { return false; }
+  /// Unit k of a pass, what one thread does without asking others, begins.
+  virtual void unit_begins(unsigned /*pass*/, std::size_t /*k*/) {}
 };
 
-/// Hands marks to an observer, if there is one; a part of the probes that backends are given.
-struct pass_marks {
-  pass_observer* observer = nullptr;
+/// Hands marks to an observer, if there is one.
+class pass_marks {
+ public:
+  pass_marks() = default;
+  explicit pass_marks(pass_observer* observer)
+      : observer_(observer), units_(observer != nullptr && observer->wants_units() ? observer : nullptr) {}
 
   void pass_begins(unsigned pass) const {
-    if (observer != nullptr) observer->pass_begins(pass);
+    if (observer_ != nullptr) observer_->pass_begins(pass);
   }
   void work_begins(unsigned pass, int thread) const {
-    if (observer != nullptr) observer->work_begins(pass, thread);
+    if (observer_ != nullptr) observer_->work_begins(pass, thread);
   }
   void work_ends(unsigned pass, int thread) const {
-    if (observer != nullptr) observer->work_ends(pass, thread);
+    if (observer_ != nullptr) observer_->work_ends(pass, thread);
   }
   void pass_ends(unsigned pass) const {
-    if (observer != nullptr) observer->pass_ends(pass);
+    if (observer_ != nullptr) observer_->pass_ends(pass);
   }
-};
+  void unit_begins(unsigned pass, std::size_t k) const {
+    if (units_ != nullptr) [[unlikely]]
+      units_->unit_begins(pass, k);
+  }
 
-/// Tells marks that want to know that unit k of a pass, what one thread does without asking others, begins.
-template <class Marks>
-[[gnu::always_inline]] inline void mark_unit(Marks& marks, unsigned pass, std::size_t k) {
-  if constexpr (requires { marks.unit_begins(pass, k); }) marks.unit_begins(pass, k);
-}
+ private:
+  pass_observer *observer_ = nullptr, *units_ = nullptr;
+};
 
 }  // namespace pairsum

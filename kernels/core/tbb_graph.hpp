@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/team.hpp"
+#include <pairsum/core/team.hpp>
 
 namespace pairsum {
 

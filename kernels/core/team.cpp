@@ -1,11 +1,12 @@
-#include "core/team.hpp"
+#include <pairsum/core/team.hpp>
 
 #include <tbb/parallel_for.h>
 
 #include <string>
 
-#include "core/error.hpp"
-#include "core/tbb_arena.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/omp_loop.hpp>
+#include <pairsum/core/tbb_arena.hpp>
 
 namespace pairsum {
 
@@ -18,11 +19,18 @@ void team::for_each(std::size_t n, index_function f) const {
     return;
   }
   if (kind_ == runtime::omp && threads_ > 1) {
-#pragma omp parallel for num_threads(threads_) schedule(static, 1)
-    for (std::size_t i = 0; i < n; ++i) f(i);
+    omp_region(threads_, [&](int thread) {
+      for (auto i = static_cast<std::size_t>(thread); i < n; i += static_cast<std::size_t>(threads_)) f(i);
+    });
     return;
   }
   for (std::size_t i = 0; i < n; ++i) f(i);
+}
+
+void check_team(int threads, int got) {
+  if (got != threads)
+    throw error("OpenMP gave " + std::to_string(got) + " of " + std::to_string(threads) +
+                " threads; raise or unset OMP_THREAD_LIMIT, and unset OMP_DYNAMIC and OMP_MAX_ACTIVE_LEVELS");
 }
 
 void check_prepared(int threads, const team& t) {

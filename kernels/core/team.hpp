@@ -17,11 +17,11 @@ constexpr std::string_view name_of(runtime r) {
 
 /// How a parallel loop is shared out: OpenMP's schedules (dynamic, fixed, guided) or oneTBB's partitioners (automatic,
 /// simple, fixed).
-enum class schedule { none, dynamic, fixed, guided, automatic, simple };
+enum class loop_schedule { none, dynamic, fixed, guided, automatic, simple };
 
 /// A schedule and its chunk (OpenMP) or grain (oneTBB), in iterations.
 struct granularity {
-  schedule how = schedule::none;
+  loop_schedule how = loop_schedule::none;
   std::size_t chunk = 0;
   bool operator==(const granularity&) const = default;
 };
@@ -64,7 +64,7 @@ class team {
   }
   /// What the caller wants, or the backend's own if the caller did not say.
   granularity granularity_or(const granularity& own) const {
-    return granularity_.how == schedule::none ? own : granularity_;
+    return granularity_.how == loop_schedule::none ? own : granularity_;
   }
 
   /// Calls f(0) .. f(n-1), each once, on the team's threads; returns when all are done.
@@ -86,6 +86,9 @@ class team {
   tbb_arena* arena_ = nullptr;
   granularity granularity_;
 };
+
+/// Throws pairsum::error if an OpenMP team of `threads` came out as `got`.
+void check_team(int threads, int got);
 
 /// Throws pairsum::error if a sum that was prepared for so many threads gets a team of more.
 void check_prepared(int threads, const team& t);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/vec.hpp"
+#include <pairsum/core/vec.hpp>
 
 namespace pairsum {
 

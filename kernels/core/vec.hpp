@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/value.hpp"
+#include <pairsum/core/value.hpp>
 
 namespace pairsum {
 

@@ -1,9 +1,9 @@
-#include "core/workers.hpp"
+#include <pairsum/core/workers.hpp>
 
 #include <string>
 
-#include "core/error.hpp"
-#include "core/tbb_arena.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/tbb_arena.hpp>
 
 namespace pairsum {
 

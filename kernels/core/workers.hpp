@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "core/team.hpp"
+#include <pairsum/core/team.hpp>
 
 namespace pairsum {
 

@@ -1,11 +1,11 @@
-#include "core/zero_table.hpp"
+#include <pairsum/core/zero_table.hpp>
 
 #include <sys/mman.h>
 
 #include <string>
 
-#include "core/error.hpp"
-#include "core/memory.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/memory.hpp>
 
 namespace pairsum {
 

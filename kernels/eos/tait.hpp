@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "core/value.hpp"
+#include <pairsum/core/value.hpp>
 
 namespace pairsum {
 

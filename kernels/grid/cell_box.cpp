@@ -1,4 +1,4 @@
-#include "grid/cell_box.hpp"
+#include <pairsum/grid/cell_box.hpp>
 
 #include <bit>
 #include <limits>

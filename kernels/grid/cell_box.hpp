@@ -4,9 +4,9 @@
 #include <span>
 #include <string>
 
-#include "core/team.hpp"
-#include "grid/cell_scale.hpp"
-#include "particles/particle_set.hpp"
+#include <pairsum/core/team.hpp>
+#include <pairsum/grid/cell_scale.hpp>
+#include <pairsum/particles/particle_set.hpp>
 
 namespace pairsum {
 

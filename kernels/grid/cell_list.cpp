@@ -1,10 +1,10 @@
-#include "grid/cell_list.hpp"
+#include <pairsum/grid/cell_list.hpp>
 
 #include <algorithm>
 #include <string>
 #include <utility>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 
 namespace pairsum {
 namespace {

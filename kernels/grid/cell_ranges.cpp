@@ -1,6 +1,6 @@
-#include "grid/cell_ranges.hpp"
+#include <pairsum/grid/cell_ranges.hpp>
 
-#include "grid/grid.hpp"
+#include <pairsum/grid/grid.hpp>
 
 namespace pairsum {
 namespace {
@@ -52,8 +52,8 @@ void cell_ranges<D>::find_cells(std::span<const std::uint32_t> keys, std::size_t
     const std::uint32_t key = keys[begin] & cell_mask;
     while (c <= n && cell_keys_[c] < key) ++c;
     if (c <= n && cell_keys_[c] == key) {
-      cells_.range[c].boundary_begin = begin;
-      cells_.range[c].boundary_end = end;
+      cells_.range[c].boundary.begin = begin;
+      cells_.range[c].boundary.end = end;
     } else {
       cells_.range.push_back({0, 0, begin, end});
       cell_keys_.push_back(key);

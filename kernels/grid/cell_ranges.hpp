@@ -2,8 +2,8 @@
 #include <span>
 #include <vector>
 
-#include "core/team.hpp"
-#include "grid/cells.hpp"
+#include <pairsum/core/team.hpp>
+#include <pairsum/grid/cells.hpp>
 
 namespace pairsum {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/vec.hpp"
+#include <pairsum/core/vec.hpp>
 
 namespace pairsum {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "core/team.hpp"
-#include "core/zero_table.hpp"
+#include <pairsum/core/team.hpp>
+#include <pairsum/core/zero_table.hpp>
 
 namespace pairsum {
 

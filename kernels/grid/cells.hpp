@@ -2,18 +2,22 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/column.hpp"
-#include "core/vec.hpp"
-#include "pattern/pattern.hpp"
+#include <pairsum/core/column.hpp>
+#include <pairsum/core/vec.hpp>
+#include <pairsum/pattern/pattern.hpp>
 
 namespace pairsum {
 
-/// The particles of one cell: contiguous ranges of indices into the sorted particle set.
-struct cell_range {
-  std::uint32_t fluid_begin = 0, fluid_end = 0, boundary_begin = 0, boundary_end = 0;
+/// A contiguous range of particle indices.
+struct index_range {
+  std::uint32_t begin = 0, end = 0;
+  std::uint32_t size() const { return end - begin; }
+  bool empty() const { return begin == end; }
+};
 
-  std::uint32_t fluid() const { return fluid_end - fluid_begin; }
-  std::uint32_t boundary() const { return boundary_end - boundary_begin; }
+/// The particles of one cell, in the sorted particle set.
+struct cell_range {
+  index_range fluid, boundary;
 };
 
 /// What a grid tells the backends, as plain data, whatever the grid: only non-empty cells exist.

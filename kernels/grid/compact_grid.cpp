@@ -1,10 +1,10 @@
-#include "grid/compact_grid.hpp"
+#include <pairsum/grid/compact_grid.hpp>
 
 #include <bit>
 #include <utility>
 
-#include "grid/refusals.hpp"
-#include "grid/sorted_search.hpp"
+#include <pairsum/grid/refusals.hpp>
+#include <pairsum/grid/sorted_search.hpp>
 
 namespace pairsum {
 

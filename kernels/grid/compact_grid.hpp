@@ -2,9 +2,9 @@
 #include <string_view>
 #include <vector>
 
-#include "grid/cell_box.hpp"
-#include "grid/cell_list.hpp"
-#include "grid/grid.hpp"
+#include <pairsum/grid/cell_box.hpp>
+#include <pairsum/grid/cell_list.hpp>
+#include <pairsum/grid/grid.hpp>
 
 namespace pairsum {
 

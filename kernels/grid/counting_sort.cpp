@@ -1,4 +1,4 @@
-#include "grid/counting_sort.hpp"
+#include <pairsum/grid/counting_sort.hpp>
 
 #include <algorithm>
 #include <utility>

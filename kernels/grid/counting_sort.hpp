@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/column.hpp"
-#include "core/team.hpp"
+#include <pairsum/core/column.hpp>
+#include <pairsum/core/team.hpp>
 
 namespace pairsum {
 

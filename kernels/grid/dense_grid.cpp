@@ -1,11 +1,11 @@
-#include "grid/dense_grid.hpp"
+#include <pairsum/grid/dense_grid.hpp>
 
 #include <string>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
-#include "grid/refusals.hpp"
-#include "grid/torus_table.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/grid/refusals.hpp>
+#include <pairsum/grid/torus_table.hpp>
 
 namespace pairsum {
 

@@ -2,10 +2,10 @@
 #include <cstdint>
 #include <span>
 
-#include "core/team.hpp"
-#include "grid/cell_scale.hpp"
-#include "grid/cells.hpp"
-#include "particles/particle_set.hpp"
+#include <pairsum/core/team.hpp>
+#include <pairsum/grid/cell_scale.hpp>
+#include <pairsum/grid/cells.hpp>
+#include <pairsum/particles/particle_set.hpp>
 
 namespace pairsum {
 

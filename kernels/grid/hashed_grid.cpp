@@ -1,13 +1,13 @@
-#include "grid/hashed_grid.hpp"
+#include <pairsum/grid/hashed_grid.hpp>
 
 #include <algorithm>
 #include <array>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
-#include "grid/refusals.hpp"
-#include "grid/torus_table.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/grid/refusals.hpp>
+#include <pairsum/grid/torus_table.hpp>
 
 namespace pairsum {
 int check_hash_size(int D, int M) {

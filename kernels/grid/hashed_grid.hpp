@@ -1,9 +1,9 @@
 #pragma once
 #include <string_view>
 
-#include "grid/cell_scale.hpp"
-#include "grid/cell_table.hpp"
-#include "grid/grid.hpp"
+#include <pairsum/grid/cell_scale.hpp>
+#include <pairsum/grid/cell_table.hpp>
+#include <pairsum/grid/grid.hpp>
 
 namespace pairsum {
 

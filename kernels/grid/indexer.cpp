@@ -1,4 +1,4 @@
-#include "grid/indexer.hpp"
+#include <pairsum/grid/indexer.hpp>
 
 #include <algorithm>
 #include <array>

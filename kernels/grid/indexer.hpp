@@ -2,11 +2,11 @@
 #include <memory>
 #include <vector>
 
-#include "grid/cell_ranges.hpp"
-#include "grid/counting_sort.hpp"
-#include "grid/grid.hpp"
-#include "grid/merge_plan.hpp"
-#include "particles/reorder.hpp"
+#include <pairsum/grid/cell_ranges.hpp>
+#include <pairsum/grid/counting_sort.hpp>
+#include <pairsum/grid/grid.hpp>
+#include <pairsum/grid/merge_plan.hpp>
+#include <pairsum/particles/reorder.hpp>
 
 namespace pairsum {
 

@@ -1,4 +1,4 @@
-#include "grid/merge_plan.hpp"
+#include <pairsum/grid/merge_plan.hpp>
 
 namespace pairsum {
 

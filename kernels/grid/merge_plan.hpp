@@ -3,10 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "core/column.hpp"
-#include "core/team.hpp"
-#include "grid/counting_sort.hpp"
-#include "particles/particle_set.hpp"
+#include <pairsum/core/column.hpp>
+#include <pairsum/core/team.hpp>
+#include <pairsum/grid/counting_sort.hpp>
+#include <pairsum/particles/particle_set.hpp>
 
 namespace pairsum {
 

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/vec.hpp"
+#include <pairsum/core/vec.hpp>
 
 namespace pairsum {
 

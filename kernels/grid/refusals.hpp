@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
-#include "core/precision.hpp"
-#include "grid/cell_scale.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/core/precision.hpp>
+#include <pairsum/grid/cell_scale.hpp>
 
 namespace pairsum {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <span>
 
-#include "core/team.hpp"
-#include "grid/cells.hpp"
+#include <pairsum/core/team.hpp>
+#include <pairsum/grid/cells.hpp>
 
 namespace pairsum {
 

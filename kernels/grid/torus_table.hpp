@@ -1,8 +1,8 @@
 #pragma once
 #include <array>
 
-#include "core/team.hpp"
-#include "grid/cells.hpp"
+#include <pairsum/core/team.hpp>
+#include <pairsum/grid/cells.hpp>
 
 namespace pairsum {
 

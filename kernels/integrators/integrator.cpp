@@ -1,6 +1,6 @@
-#include "integrators/integrator.hpp"
+#include <pairsum/integrators/integrator.hpp>
 
-#include "core/names.hpp"
+#include <pairsum/core/names.hpp>
 
 namespace pairsum {
 

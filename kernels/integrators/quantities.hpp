@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "integrators/with_state.hpp"
+#include <pairsum/integrators/with_state.hpp>
 
 namespace pairsum {
 

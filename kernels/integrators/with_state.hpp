@@ -1,5 +1,5 @@
 #pragma once
-#include "sum/state.hpp"
+#include <pairsum/sum/state.hpp>
 
 namespace pairsum {
 

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <tuple>
 
-#include "core/fields.hpp"
-#include "eos/tait.hpp"
+#include <pairsum/core/fields.hpp>
+#include <pairsum/eos/tait.hpp>
 
 namespace pairsum {
 

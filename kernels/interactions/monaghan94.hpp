@@ -1,5 +1,5 @@
 #pragma once
-#include "interactions/interaction.hpp"
+#include <pairsum/interactions/interaction.hpp>
 
 namespace pairsum {
 

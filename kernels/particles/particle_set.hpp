@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/column.hpp"
-#include "core/vec.hpp"
+#include <pairsum/core/column.hpp>
+#include <pairsum/core/vec.hpp>
 
 namespace pairsum {
 

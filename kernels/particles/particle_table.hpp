@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/team.hpp"
-#include "particles/particle_set.hpp"
+#include <pairsum/core/team.hpp>
+#include <pairsum/particles/particle_set.hpp>
 
 namespace pairsum {
 

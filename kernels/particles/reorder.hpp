@@ -3,8 +3,8 @@
 #include <span>
 #include <tuple>
 
-#include "core/team.hpp"
-#include "particles/particle_set.hpp"
+#include <pairsum/core/team.hpp>
+#include <pairsum/particles/particle_set.hpp>
 
 namespace pairsum {
 

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "core/value.hpp"
+#include <pairsum/core/value.hpp>
 
 namespace pairsum {
 

@@ -2,7 +2,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "core/value.hpp"
+#include <pairsum/core/value.hpp>
 
 namespace pairsum {
 

@@ -1,4 +1,4 @@
-#include "sum/agreement.hpp"
+#include <pairsum/sum/agreement.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-#include "sum/rate_table.hpp"
+#include <pairsum/sum/rate_table.hpp>
 
 namespace pairsum {
 

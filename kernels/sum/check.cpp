@@ -1,14 +1,14 @@
-#include "sum/check.hpp"
+#include <pairsum/sum/check.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
-#include "sum/mixed.hpp"
-#include "sum/omega.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/core/precision.hpp>
+#include <pairsum/sum/omega.hpp>
 
 namespace pairsum {
 namespace {
@@ -29,6 +29,23 @@ precision_range range_of(const std::string& precision) {
   if (precision == precision_name<float>()) return {1e-32, 1e32, std::numeric_limits<float>::max()};
   if (precision == mixed_precision) return {1e-32, 1e32, std::numeric_limits<double>::max()};
   return {1e-300, 1e300, std::numeric_limits<double>::max()};
+}
+
+void check_columns(const particle_table& p) {
+  const auto is = [](const std::string& name, std::size_t got, std::size_t expected, const char* of) {
+    if (got != expected)
+      throw error(name + " of the particles has " + std::to_string(got) + of + ", must have " +
+                  std::to_string(expected));
+  };
+  const auto dim = static_cast<std::size_t>(p.dim);
+  is("x", p.x.size(), dim, " columns");
+  is("v", p.v.size(), dim, " columns");
+  for (std::size_t d = 0; d < dim; ++d) {
+    is("column x_" + std::string(1, "xyz"[d]), p.x[d].size(), p.size(), " rows");
+    is("column v_" + std::string(1, "xyz"[d]), p.v[d].size(), p.size(), " rows");
+  }
+  is("column rho", p.rho.size(), p.size(), " rows");
+  is("column m", p.m.size(), p.size(), " rows");
 }
 
 }  // namespace
@@ -61,6 +78,7 @@ void check_world(const setup& s) {
 void check_input(const particle_table& p, const setup& s) {
   if (p.dim != s.dim)
     throw error("the particles are " + std::to_string(p.dim) + "D, the summation is " + std::to_string(s.dim) + "D");
+  check_columns(p);
   check_world(s);
   if (p.size() >= (std::size_t{1} << 32) - 1024) throw error("at most 2^32 - 1025 particles can be summed");
   const bool single = s.precision != precision_name<double>();  // what a pair's terms are made of must fit

@@ -2,8 +2,8 @@
 #include <string_view>
 #include <vector>
 
-#include "particles/particle_table.hpp"
-#include "sum/setup.hpp"
+#include <pairsum/particles/particle_table.hpp>
+#include <pairsum/sum/setup.hpp>
 
 namespace pairsum {
 

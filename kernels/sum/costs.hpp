@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "interactions/interaction.hpp"
+#include <pairsum/interactions/interaction.hpp>
 
 namespace pairsum {
 

@@ -1,14 +1,14 @@
-#include "sum/grids.hpp"
+#include <pairsum/sum/grids.hpp>
 
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
-#include "core/tbb_arena.hpp"
-#include "grid/compact_grid.hpp"
-#include "grid/dense_grid.hpp"
-#include "sum/check.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/core/tbb_arena.hpp>
+#include <pairsum/grid/compact_grid.hpp>
+#include <pairsum/grid/dense_grid.hpp>
+#include <pairsum/sum/check.hpp>
 
 namespace pairsum {
 

@@ -4,10 +4,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/team.hpp"
-#include "grid/grid.hpp"
-#include "grid/hashed_grid.hpp"
-#include "sum/omega.hpp"
+#include <pairsum/core/team.hpp>
+#include <pairsum/grid/grid.hpp>
+#include <pairsum/grid/hashed_grid.hpp>
+#include <pairsum/sum/omega.hpp>
 
 namespace pairsum {
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "core/torus.hpp"
-#include "sum/setup.hpp"
+#include <pairsum/core/torus.hpp>
+#include <pairsum/sum/setup.hpp>
 
 namespace pairsum {
 

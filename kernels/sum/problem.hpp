@@ -1,57 +1,65 @@
 #pragma once
-#include <array>
-
-#include "core/torus.hpp"
-#include "grid/cells.hpp"
-#include "interactions/interaction.hpp"
-#include "particles/particle_set.hpp"
+#include <pairsum/grid/cells.hpp>
+#include <pairsum/sum/meeting.hpp>
+#include <pairsum/sum/pair_sum.hpp>
+#include <pairsum/sum/search_space.hpp>
 
 namespace pairsum {
 
-/// The positions of the sorted set, a column per component.
+template <int D>
+struct vector_lister;
 template <int D, class R>
-struct positions {
-  std::array<const R*, D> column;
-  torus<D, R> omega{};  ///< what makes ways of differences if Omega is periodic
+struct lane_view;
 
-  [[gnu::always_inline]] vec<D, R> operator[](std::size_t i) const {
-    vec<D, R> p;
-    for (int d = 0; d < D; ++d) p[d] = column[d][i];
-    return p;
-  }
-  /// The same as a point whose differences from others are ways, also through the faces of a periodic box.
-  [[gnu::always_inline]] point<D, R> point_of(std::size_t i) const {
-    const vec<D, R> p = (*this)[i];
-    return {p, omega.seen_from(p)};
+/// Everything a schedule sees of one summation: sorted particles, the cells they lie in, where the rates go, and the
+/// formula behind pointers. Indices are positions in the sorted set: fluid [0, fluid_count), boundary behind it.
+/// Nothing here is owned.
+template <int D, class R>
+struct problem : search_space<D, R> {
+  const pairsum::cells<D>* grid_cells = nullptr;
+  std::size_t fluid_count = 0, count = 0;  ///< fluid, and with the boundary
+  rate_view u;                             ///< rates of the fluid, what is summed into
+  rate_view columns;     ///< their columns; on vector units a gather adds to these and other sums to rows
+  bool is_zero = false;  ///< u is 0 already
+  const pair_sum<D, R>* pairs = nullptr;
+  const void* formula = nullptr;            ///< opened by formula/ and vector/ alone
+  const lane_view<D, R>* lane = nullptr;    ///< of vector units: the fluid as rows
+  const vector_lister<D>* lanes = nullptr;  ///< lists rows on vector units; nullptr: scalar
+  std::size_t spare_rows = 0;               ///< of vector units: rows behind the fluid, per thread
+  int threads = 1;                          ///< of the team that prepared
+  work_counts* counts = nullptr;            ///< nullptr when timed
+
+  const pairsum::cells<D>& cells() const { return *grid_cells; }
+  target to(int thread) const { return {.u = u, .thread = thread}; }
+  /// Rates that a copy of them has: the fluid's, and the spare rows'.
+  std::size_t rate_rows() const { return fluid_count + spare_rows * static_cast<std::size_t>(threads); }
+  std::uint32_t spare_of(int thread) const {
+    return static_cast<std::uint32_t>(fluid_count + spare_rows * static_cast<std::size_t>(thread));
   }
 };
 
-/// Everything a backend sees of one summation: sorted particles as columns, the cells they lie in, the formula, and
-/// where the rates go. Indices are positions in the sorted set: fluid [0, fluid_count), boundary behind it. Nothing
-/// here is owned.
-template <interaction I>
-struct problem {
-  using real = typename I::real;
-  static constexpr int dim = I::dim;
+/// Lists the pairs of meetings in `space`, on vector units if the problem has them, and hands the rows to the sink.
+template <int D, class R>
+void list_meetings(const problem<D, R>& p, const search_space<D, R>& space, const row_sink& sink, const meeting<D>* m,
+                   unsigned n, work_counts* counts);
 
-  positions<dim, real> x;                            ///< all particles
-  field_pointers<particle_of<I>> fluid;              ///< index: fluid particle
-  field_pointers<boundary_particle_of<I>> boundary;  ///< read it through boundary_particle(b)
-  field_pointers<rates_of<I>> u;                     ///< index: fluid particle
-  const pairsum::cells<dim>* grid_cells;
-  const I* formula;
-  real reach2, boundary_reach2;              ///< H^2 and (boundary_reach H)^2
-  std::size_t fluid_count, count;            ///< fluid, and with the boundary
-  const particle_set<dim, real>* particles;  ///< the sorted set
+/// Sums the pairs of meetings: both sides of each (partners all and later), or the own side (others).
+template <int D, class R>
+void sum_meetings(const problem<D, R>& p, const search_space<D, R>& space, const target& to, const meeting<D>* m,
+                  unsigned n);
+template <int D, class R>
+inline void sum_meetings(const problem<D, R>& p, const target& to, const meeting<D>& m) {
+  sum_meetings<D, R>(p, p, to, &m, 1);
+}
 
-  const pairsum::cells<dim>& cells() const { return *grid_cells; }
+/// Sums cell[0..n), one after the other: half stencils (partners later), or full ones (others).
+template <int D, class R>
+void sum_cells(const problem<D, R>& p, const target& to, partners who, const std::uint32_t* cell, std::size_t n);
 
-  /// What boundary particle b brings, b being its position in the sorted set.
-  [[gnu::always_inline]] boundary_particle_of<I> boundary_particle(std::size_t b) const {
-    return boundary.load(b - fluid_count);
-  }
-  /// Where particle i is. position(i) - position(j) is the way from j to i, in a periodic box the shortest.
-  [[gnu::always_inline]] point<dim, real> position(std::size_t i) const { return x.point_of(i); }
-};
+/// Sums both sides of listed pairs; `tested`: only of those that are in reach, of a list that holds more.
+template <int D, class R>
+void sum_listed(const problem<D, R>& p, const target& to, const row* rows, std::size_t n, bool tested);
+
+#define PAIRSUM_EACH_D_R(DO) DO(1, double) DO(2, double) DO(3, double) DO(1, float) DO(2, float) DO(3, float)
 
 }  // namespace pairsum

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
-#include "sum/setup.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/sum/setup.hpp>
 
 namespace pairsum {
 

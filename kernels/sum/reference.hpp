@@ -2,9 +2,9 @@
 #include <memory>
 #include <vector>
 
-#include "particles/particle_table.hpp"
-#include "sum/costs.hpp"
-#include "sum/rate_table.hpp"
+#include <pairsum/particles/particle_table.hpp>
+#include <pairsum/sum/costs.hpp>
+#include <pairsum/sum/rate_table.hpp>
 
 namespace pairsum {
 

@@ -1,76 +1,93 @@
-#include "sum/registry.hpp"
+#include <pairsum/sum/registry.hpp>
 
 #include <algorithm>
 
-#include "core/names.hpp"
-#include "sum/check.hpp"
-#include "sum/enrolment.hpp"
+#include <pairsum/core/names.hpp>
+#include <pairsum/core/precision.hpp>
+#include <pairsum/sum/check.hpp>
+#include <pairsum/sum/summation_in.hpp>
 
 namespace pairsum {
 namespace {
 
-template <class T, class Entries, class Get>
-std::vector<T> distinct(const Entries& entries, Get get) {
+template <class T, class Get>
+std::vector<T> distinct(const std::vector<formula_entry>& entries, Get get) {
   std::vector<T> values;
-  for (const auto& e : entries) {
-    const T v = get(e.what);
+  for (const formula_entry& e : entries) {
+    const T v(get(e.words));
     if (std::ranges::find(values, v) == values.end()) values.push_back(v);
   }
   return values;
 }
 
+combination combination_of(const combination_words& w) {
+  return {std::string(w.interaction), std::string(w.smoothing), w.dim, std::string(w.precision)};
+}
+
+std::string text_of(const combination_words& w) {
+  const combination c = combination_of(w);
+  return c.interaction + (c.smoothing.empty() ? "" : "/" + c.smoothing) + "/" + std::to_string(c.dim) + "D/" +
+         c.precision;
+}
+
+template <int D, class R>
+std::unique_ptr<summation> joined(const setup& s, const backend_entry& b, std::unique_ptr<any_formula> made) {
+  std::unique_ptr<formula<D, R>> typed(&dynamic_cast<formula<D, R>&>(*made));
+  (void)made.release();
+  return std::make_unique<summation_in<D, R>>(s, b.traits, b.make, std::move(typed));
+}
+
 }  // namespace
 
-const registry& registry::instance() {
-  static const registry the_one = [] {
+const registry& registry::instance() { return changeable_instance(); }
+registry& registry::changeable_instance() {
+  static registry the_one = [] {
     registry r;
-    enrol_all(r);
+    add_library(r);
     return r;
   }();
   return the_one;
 }
 
-void registry::enrol_backend(const backend_traits& t, std::string unavailable) {
-  const bool known = std::ranges::any_of(backends_, [&](const backend_entry& b) { return b.traits.name == t.name; });
-  if (!known) backends_.push_back({t, std::move(unavailable)});  // a second formula brings the same backends
+void registry::add(backend_entry b) {
+  const auto taken = [&](const backend_entry& other) { return other.traits.name == b.traits.name; };
+  if (std::ranges::any_of(backends_, taken))
+    throw error("there is a backend " + std::string(b.traits.name) + " already");
+  backends_.push_back(std::move(b));
 }
-void registry::enrol_missing(missing_word m) { missing_.push_back(std::move(m)); }
-void registry::enrol(std::string_view backend, const combination_words& c, summation_maker make) {
-  summations_.push_back({std::string(backend), c, make});
+void registry::add(formula_entry f) {
+  const combination own = combination_of(f.words);
+  if (std::ranges::any_of(formulas_, [&](const formula_entry& other) { return combination_of(other.words) == own; }))
+    throw error("there is a formula " + text_of(f.words) + " already");
+  formulas_.push_back(std::move(f));
 }
-void registry::enrol_wrapper(const backend_traits& t, const std::string& base, summation_wrapper wrap) {
+void registry::add_missing(missing_word m) { missing_.push_back(std::move(m)); }
+void registry::add_wrapper(const backend_traits& t, const std::string& base, summation_wrapper wrap) {
   const std::string name(t.name);
-  if (std::ranges::any_of(backends_, [&](const backend_entry& b) { return b.traits.name == name; }))
-    throw error("backend " + name + " is enrolled already");
   const auto entry = std::ranges::find(backends_, base, [](const backend_entry& b) { return b.traits.name; });
-  if (entry == backends_.end()) throw error("backend " + name + " cannot wrap " + base + ", which is not enrolled");
-  std::vector<made> wrapped;
-  for (const made& m : summations_) {
-    if (m.backend != base) continue;
-    if (m.wrap) throw error("backend " + name + " cannot wrap " + base + ", which is a wrapper itself");
-    wrapped.push_back({name, m.what, m.make, wrap, base});
-  }
-  backends_.push_back({t, std::string(entry->unavailable)});
-  summations_.insert(summations_.end(), wrapped.begin(), wrapped.end());
+  if (entry == backends_.end()) throw error("backend " + name + " cannot wrap " + base + ", which there is not");
+  if (std::ranges::find(wrappers_, base, &wrapper::name) != wrappers_.end())
+    throw error("backend " + name + " cannot wrap " + base + ", which is a wrapper itself");
+  add(backend_entry{t, entry->make, entry->unavailable});
+  wrappers_.push_back({name, base, wrap});
 }
-void registry::enrol_reference(const combination_words& c, reference_maker make) { references_.push_back({c, make}); }
 
 std::vector<std::string> registry::interactions() const {
-  return distinct<std::string>(references_, [](const combination& c) { return c.interaction; });
+  return distinct<std::string>(formulas_, [](const combination_words& c) { return c.interaction; });
 }
 std::vector<std::string> registry::smoothings() const {
-  auto names = distinct<std::string>(references_, [](const combination& c) { return c.smoothing; });
+  auto names = distinct<std::string>(formulas_, [](const combination_words& c) { return c.smoothing; });
   std::erase(names, "");
   return names;
 }
 std::vector<std::string> registry::precisions() const {
-  return distinct<std::string>(references_, [](const combination& c) { return c.precision; });
+  return distinct<std::string>(formulas_, [](const combination_words& c) { return c.precision; });
 }
 std::vector<int> registry::dims() const {
-  return distinct<int>(references_, [](const combination& c) { return c.dim; });
+  return distinct<int>(formulas_, [](const combination_words& c) { return c.dim; });
 }
 std::vector<combination> registry::formulas() const {
-  return distinct<combination>(references_, [](const combination& c) { return c; });
+  return distinct<combination>(formulas_, [](const combination_words& c) { return combination_of(c); });
 }
 
 template <class Words>
@@ -91,8 +108,9 @@ void registry::check_dim(int dim) const {
   check_built("dimension", std::to_string(dim), built);
 }
 bool registry::is_smoothed(const std::string& interaction) const {
-  return std::ranges::any_of(
-      references_, [&](const oracle& o) { return o.what.interaction == interaction && !o.what.smoothing.empty(); });
+  return std::ranges::any_of(formulas_, [&](const formula_entry& f) {
+    return f.words.interaction == interaction && !f.words.smoothing.empty();
+  });
 }
 
 const backend_entry& registry::find_backend(const std::string& name) const {
@@ -107,41 +125,45 @@ const backend_entry& registry::find_backend(const std::string& name) const {
   throw unknown_name("backend", name, valid);
 }
 
-template <class Entries>
-const auto& registry::find(const Entries& entries, const setup& s) const {
+const formula_entry& registry::find_formula(const setup& s) const {
   check_interaction(s.interaction);
   if (is_smoothed(s.interaction)) check_smoothing(s.smoothing);
   check_precision(s.precision);
   check_dim(s.dim);
   std::vector<std::string> built;
-  bool with_another_smoothing = false;
-  for (const auto& e : entries) {
-    if constexpr (requires { e.backend; })
-      if (e.backend != s.backend) continue;
-    const combination& c = e.what;
+  for (const formula_entry& f : formulas_) {
+    const combination_words& c = f.words;
     const bool same_place = c.interaction == s.interaction && c.dim == s.dim && c.precision == s.precision;
-    if (same_place && (c.smoothing.empty() || c.smoothing == s.smoothing)) return e;
-    with_another_smoothing |= same_place;
-    const std::string words = c.interaction + (c.smoothing.empty() ? "" : "/" + c.smoothing) + "/" +
-                              std::to_string(c.dim) + "D/" + c.precision;
-    if (std::ranges::find(built, words) == built.end()) built.push_back(words);
+    if (same_place && (c.smoothing.empty() || c.smoothing == s.smoothing)) return f;
+    built.push_back(text_of(c));
   }
-  throw error(s.interaction + "/" + s.smoothing + "/" + std::to_string(s.dim) + "D/" + s.precision + " was not built" +
-              (with_another_smoothing ? ", configure with -DPAIRSUM_FORMULAS=all" : "") + "; built: " + join(built));
+  throw error(s.interaction + "/" + s.smoothing + "/" + std::to_string(s.dim) + "D/" + s.precision +
+              " was not built; built: " + join(built));
 }
 
 std::unique_ptr<summation> registry::make_summation(const setup& s) const {
-  find_backend(s.backend);
-  const made& found = find(summations_, s);
-  if (!found.wrap) return found.make(s);
-  setup inner = s;
-  inner.backend = found.base;
-  return found.wrap(found.make(inner), s);
+  const backend_entry& b = find_backend(s.backend);
+  if (const auto w = std::ranges::find(wrappers_, s.backend, &wrapper::name); w != wrappers_.end()) {
+    setup inner = s;
+    inner.backend = w->base;
+    return w->wrap(make_summation(inner), s);
+  }
+  const formula_entry& f = find_formula(s);
+  if (f.make == nullptr) throw error(text_of(f.words) + " has a reference alone");
+  auto made = f.make(s);
+  if (s.precision == precision_name<float>()) {
+    if (s.dim == 1) return joined<1, float>(s, b, std::move(made));
+    if (s.dim == 2) return joined<2, float>(s, b, std::move(made));
+    return joined<3, float>(s, b, std::move(made));
+  }
+  if (s.dim == 1) return joined<1, double>(s, b, std::move(made));
+  if (s.dim == 2) return joined<2, double>(s, b, std::move(made));
+  return joined<3, double>(s, b, std::move(made));
 }
 
 std::unique_ptr<reference> registry::make_reference(const setup& s) const {
   check_world(s);
-  return find(references_, s).make(s);
+  return find_formula(s).oracle(s);
 }
 
 }  // namespace pairsum

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "interactions/interaction.hpp"
+#include <pairsum/interactions/interaction.hpp>
 
 namespace pairsum {
 
@@ -14,8 +14,10 @@ struct setup {
   std::string precision = "double";
   std::string grid = "hashed_grid";
   int dim = 3;
-  int M = 7;                   ///< for grids that take one
-  std::string isa = "best";    ///< instruction set of vector backends: a word of isa_names(), or the best of them
+  int M = 7;  ///< for grids that take one
+  /// Instruction set of vector units: a word of isa_names(), `best` of them, `scalar` for none, or the backend's
+  /// `default`.
+  std::string isa = "default";
   std::string block = "auto";  ///< blocks of backends that have them: slab:N, pencil:N, brick:N (N cells wide), or auto
   std::size_t cache_bytes = 0;  ///< of a core, for `auto` blocks; 0: 1 MiB
   std::size_t cores = 0;  ///< that a process may use, however many it takes, for `auto` blocks; 0: as the machine says

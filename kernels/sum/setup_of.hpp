@@ -1,6 +1,6 @@
 #pragma once
-#include "cases/case.hpp"
-#include "sum/setup.hpp"
+#include <pairsum/cases/case.hpp>
+#include <pairsum/sum/setup.hpp>
 
 namespace pairsum {
 

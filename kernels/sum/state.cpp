@@ -1,13 +1,13 @@
-#include "sum/state.hpp"
+#include <pairsum/sum/state.hpp>
 
 #include <cmath>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/names.hpp"
-#include "grid/cell_scale.hpp"
-#include "sum/check.hpp"
-#include "sum/grids.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/grid/cell_scale.hpp>
+#include <pairsum/sum/check.hpp>
+#include <pairsum/sum/grids.hpp>
 
 namespace pairsum {
 namespace {
@@ -39,7 +39,7 @@ void state<D, R>::load(const particle_table& p, const std::vector<std::uint32_t>
   check_order(order, p.size());
   fill(particles_, p, order, t);
   index_.forget();
-  rows_ = p.size();
+  rows_total_ = p.size();
   lost_ = 0;
 }
 
@@ -66,12 +66,12 @@ std::optional<unfolded_tests> state<D, R>::count_unfolded_tests() const {
   const cells<D>& c = index.view();
   unfolded_tests tests;
   for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell) {
-    const std::uint64_t own = c.range[cell].fluid();
+    const std::uint64_t own = c.range[cell].fluid.size();
     std::uint64_t around = 0, boundary = 0;
     for (unsigned n = 0; n < cells<D>::stencil; ++n) {
       const cell_range& other = c.range[c.neighbour(cell, n)];
-      around += other.fluid();
-      boundary += other.boundary_end - other.boundary_begin;
+      around += other.fluid.size();
+      boundary += other.boundary.end - other.boundary.begin;
     }
     tests.gather += own * (around - 1) + own * boundary;
     tests.symmetric += own * boundary;
@@ -83,7 +83,7 @@ std::optional<unfolded_tests> state<D, R>::count_unfolded_tests() const {
 
 template <int D, class R>
 particle_table state<D, R>::snapshot() const {
-  particle_table table = to_table(particles_, rows_);
+  particle_table table = to_table(particles_, rows_total_);
   if (setup_.periodic) {  // while a list serves, nobody is brought back
     const box<D, double> omega = make_box<D, double>(setup_);
     for (int d = 0; d < D; ++d)

@@ -1,8 +1,9 @@
 #pragma once
 #include <array>
 
-#include "grid/indexer.hpp"
-#include "sum/summation.hpp"
+#include <pairsum/grid/indexer.hpp>
+#include <pairsum/sum/formula.hpp>
+#include <pairsum/sum/summation.hpp>
 
 namespace pairsum {
 
@@ -11,13 +12,7 @@ namespace pairsum {
 template <int D, class R>
 class state : public summation {
  public:
-  /// Columns of the rates an integrator uses, in the order of the particles; empty if the interaction has none.
-  struct dynamics {
-    const R* drho = nullptr;
-    std::array<const R*, D> dv{};
-    explicit operator bool() const { return drho != nullptr; }
-  };
-  virtual dynamics rates_of_state() = 0;
+  virtual dynamics<D, R> rates_of_state() const = 0;
 
   void check(const particle_table& p) const override;
   using summation::load;
@@ -42,7 +37,7 @@ class state : public summation {
   setup setup_;
   particle_set<D, R> particles_;
   indexer<D, R> index_;
-  std::size_t rows_ = 0, lost_ = 0;
+  std::size_t rows_total_ = 0, lost_ = 0;
   pass_observer* observer_ = nullptr;
 };
 

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "particles/particle_table.hpp"
-#include "sum/backend.hpp"
-#include "sum/rate_table.hpp"
-#include "sum/setup.hpp"
+#include <pairsum/core/pass_observer.hpp>
+#include <pairsum/particles/particle_table.hpp>
+#include <pairsum/sum/backend_traits.hpp>
+#include <pairsum/sum/rate_table.hpp>
+#include <pairsum/sum/setup.hpp>
+#include <pairsum/sum/work_counts.hpp>
 
 namespace pairsum {
 
@@ -48,13 +50,14 @@ class summation {
     reduce(t);
   }
 
-  /// The work of a summation of the state as indexed last; an untimed instantiation of its own, on one thread.
+  /// The work of a summation of the state as indexed last; an untimed run of its own, on one thread.
   virtual work_counts count_work() = 0;
 
   /// The blocks of cells that the backend made of the state as prepared last, as a word of block_shape; "none" for
   /// backends without.
   virtual std::string block() const = 0;
-  virtual std::size_t lanes() const = 0;  ///< pairs that are evaluated at a time
+  virtual std::size_t lanes() const = 0;     ///< pairs that are evaluated at a time
+  virtual std::string_view isa() const = 0;  ///< instruction set of the vector units that it runs on, or "scalar"
 
   /// The distance tests a grid that folds nothing would need for the state as loaded or indexed last; empty if the
   /// precision does not resolve H in an Omega of that size.

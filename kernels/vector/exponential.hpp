@@ -1,5 +1,5 @@
 #pragma once
-#include "vector/highway.hpp"
+#include <pairsum/vector/highway.hpp>
 // After it; its include guard is meant for sources that are compiled for several sets at once.
 #include <hwy/contrib/math/math-inl.h>
 

@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "core/value.hpp"
-#include "vector/exponential.hpp"
-#include "vector/highway.hpp"
-#include "vector/root.hpp"
+#include <pairsum/core/value.hpp>
+#include <pairsum/vector/exponential.hpp>
+#include <pairsum/vector/highway.hpp>
+#include <pairsum/vector/root.hpp>
 
 /// A vector of lanes as a value type for formulas: + - * / and the operations of core/value.hpp, found by
 /// argument-dependent lookup. V is one of Highway's vectors, whose namespace names the instruction set; so what is

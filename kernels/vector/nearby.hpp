@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "sum/candidates.hpp"
-#include "vector/lanes.hpp"
-#include "vector/tile_problem.hpp"
+#include <pairsum/sum/meeting.hpp>
+#include <pairsum/sum/search_space.hpp>
+#include <pairsum/vector/lanes.hpp>
 
 namespace pairsum {
 
@@ -15,7 +15,8 @@ namespace pairsum {
 /// precision, so that a distance test takes twice the lanes of double. It tests |x_j|^2 - 2 x_i.x_j < reach^2 -
 /// |x_i|^2, one fused multiply-add per component, and lets a little more pass than is in reach: whoever uses the hits
 /// decides in the working precision.
-template <int D, class V>
+/// `ordered`: numbers of the places are not those of particles, see the constructor.
+template <int D, class V, bool ordered>
 class alignas(4096) nearby {
   using tag = lane_tag<float>;
   static constexpr std::size_t N = lane_count<float>;
@@ -24,6 +25,9 @@ class alignas(4096) nearby {
  public:
   using places = std::array<const std::int32_t*, static_cast<std::size_t>(D)>;
   static constexpr std::size_t capacity = 1104;
+
+  /// `order`: which particle is number k; nullptr if not `ordered`: number k.
+  explicit nearby(const std::uint32_t* order) : order_(order) {}
 
   /// Starts over, around particle i, for a reach in units of the problem's, at most 1, and places of which rounding
   /// moves the square of a distance by up to `excess`.
@@ -154,7 +158,10 @@ class alignas(4096) nearby {
       square = hn::MulAdd(x, x, square);
     }
     hn::StoreU(square, d, square_ + slot);
-    hn::StoreU(numbered_from(du, j), du, index_ + slot);
+    if constexpr (ordered)
+      hn::StoreU(hn::LoadU(du, order_ + j), du, index_ + slot);
+    else
+      hn::StoreU(numbered_from(du, j), du, index_ + slot);
   }
 
   /// How far from the origin a particle may be, per component, in units of the reach. Then those in its reach are less
@@ -172,6 +179,7 @@ class alignas(4096) nearby {
   HWY_ALIGN float x_[D][room];
   HWY_ALIGN float square_[room];
   HWY_ALIGN std::uint32_t index_[room];
+  const std::uint32_t* order_;
   std::int32_t origin_[D];
   bool sized_ = false;  ///< in a periodic box
   float size_of_place_[D], most_[D];

@@ -1,5 +1,5 @@
 #pragma once
-#include "vector/highway.hpp"
+#include <pairsum/vector/highway.hpp>
 
 namespace pairsum {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-#include "vector/lanes.hpp"
-#include "vector/tile_problem.hpp"
+#include <pairsum/formula/row_layout.hpp>
+#include <pairsum/vector/lanes.hpp>
 
 /// Between particles that lie anywhere, a row of values each, and vectors with one particle per lane: rows are loaded
 /// in blocks of a few values and transposed in registers, which takes a fraction of the time of gather and scatter
@@ -52,19 +52,19 @@ HWY_INLINE void add_piece(D d, hn::Vec<D> v, R* values) {
   }
 }
 
-/// Adds piece k of v to the piece at `to` of row index[k * piece].
-template <class D, class R>
-HWY_INLINE void add(D d, hn::Vec<D> v, R* to, std::size_t stride, const std::uint32_t* index) {
+/// Adds piece k of v to the piece at `first` of row row_of(index[k * piece]) of R.
+template <class R, class D, class RowOf>
+HWY_INLINE void add(D d, hn::Vec<D> v, const RowOf& row_of, std::size_t first, const std::uint32_t* index) {
   constexpr std::size_t n = hn::MaxLanes(D());
   if constexpr (n == piece<hn::TFromD<D>>) {
-    add_piece(d, v, to + index[0] * stride);
+    add_piece(d, v, row_of(index[0]) + first);
   } else if constexpr (!std::is_same_v<R, hn::TFromD<D>> && n <= lane_count<R>) {
     const hn::Rebind<R, D> wide;  // one conversion for several rows
-    add(wide, hn::PromoteTo(wide, v), to, stride, index);
+    add<R>(wide, hn::PromoteTo(wide, v), row_of, first, index);
   } else {
     const hn::Half<D> half;
-    add(half, hn::LowerHalf(half, v), to, stride, index);
-    add(half, hn::UpperHalf(half, v), to, stride, index + n / 2);
+    add<R>(half, hn::LowerHalf(half, v), row_of, first, index);
+    add<R>(half, hn::UpperHalf(half, v), row_of, first, index + n / 2);
   }
 }
 
@@ -193,18 +193,17 @@ HWY_INLINE void load_rows(const R* rows, std::size_t stride, const std::uint32_t
   }
 }
 
-/// Adds lane l of values[k] to value k of row index[l], one row after the other, so that a row may be there twice. Rows
-/// may be of a wider type than the lanes.
-template <class R, std::size_t n, class W>
-HWY_INLINE void add_to_rows(W* rows, std::size_t stride, const std::uint32_t* index,
-                            const lane_vector<R> (&values)[n]) {
+/// Adds lane l of values[k] to value k of row_of(index[l]), one row after the other, so that a row may be there twice.
+/// Rows may be of a type W wider than the lanes.
+template <class R, class W, std::size_t n, class RowOf>
+HWY_INLINE void add_to_rows(const RowOf& row_of, const std::uint32_t* index, const lane_vector<R> (&values)[n]) {
   constexpr std::size_t P = rows_detail::piece<R>;
   const lane_tag<R> d;
   for (std::size_t first = 0; first < n; first += P) {
     lane_vector<R> v[P];
     for (std::size_t b = 0; b < P; ++b) v[b] = first + b < n ? values[first + b] : hn::Zero(d);
     rows_detail::transpose(v);
-    for (std::size_t r = 0; r < P; ++r) rows_detail::add(d, v[r], rows + first, stride, index + r);
+    for (std::size_t r = 0; r < P; ++r) rows_detail::add<W>(d, v[r], row_of, first, index + r);
   }
 }
 

@@ -42,7 +42,9 @@ BAD_RUNS = [
     (["--grid", "nope"], ["nope", "hashed_grid"]),
     (["--grid", "hashed_grid,"], ["--grid"]),
     (["--isa", "nope"], ["nope"]),
+    (["--isa", "best", "--backend", "atomic_add"], ["atomic_add has no vector units", "scalar"]),
     (["--block", "slab:0"], ["slab:0", "pencil:N"]),
+    (["--block", "slab:4:morton"], ["slab:4:morton", "pencil:N"]),
     (["--block", "4"], ['"4"', "auto"]),
     (["--program", "nope"], ["--program"]),  # the options name no second build
     (["--study", "a/b"], ["study"]),

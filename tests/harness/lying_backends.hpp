@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -8,87 +9,52 @@
 namespace pairsum {
 
 /// Right rates, but says that it summed one fluid pair more than it did.
-struct counts_one_too_many {
-  static constexpr backend_traits traits = [] {
-    backend_traits t = broken_symmetric<fault::none>::traits;
-    t.name = "counts_one_too_many";
-    return t;
-  }();
-
-  template <class I>
-  struct workspace : broken_symmetric<fault::none>::workspace<I> {
-    template <class Probe>
-    void sum(const problem<I>& p, const team& t, Probe& probe) {
-      broken_symmetric<fault::none>::workspace<I>::sum(p, t, probe);
-      probe.fluid_pairs(1);
-    }
-  };
+template <int D, class R>
+struct counts_one_too_many : broken_none<D, R> {
+  void sum(const problem<D, R>& p, const team& t, const backend_traits& own, const pass_marks& marks) override {
+    broken_none<D, R>::sum(p, t, own, marks);
+    if (p.counts != nullptr) ++p.counts->pairs_fluid_fluid;
+  }
 };
 
 /// Rates within their bounds, but the last bit of one depends on the number of threads, whatever it claims.
-template <bool Claims>
-struct bits_change_with_threads {
+template <bool Claims, int D, class R>
+struct bits_change_with_threads : broken_none<D, R> {
   static constexpr backend_traits traits = [] {
-    backend_traits t = broken_symmetric<fault::none>::traits;
-    t.name = Claims ? "claims_equal_bits" : "admits_other_bits";
-    t.threads = runtime::omp;
+    backend_traits t = broken_none<D, R>::traits;
     t.deterministic = Claims;
     return t;
   }();
-
-  template <class I>
-  struct workspace : broken_symmetric<fault::none>::workspace<I> {
-    template <class Probe>
-    void sum(const problem<I>& p, const team& t, Probe& probe) {
-      broken_symmetric<fault::none>::workspace<I>::sum(p, t, probe);
-      bool nudged = t.threads() == 1;
-      for (std::size_t i = 0; i < p.fluid_count && !nudged; ++i) {
-        auto u = p.u.load(i);
-        each_scalar(u, [&](auto& a, int) {
-          if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(a)>>) {
-            if (nudged || a == 0) return;
-            a = std::nextafter(a, 2 * a);
-            nudged = true;
-          }
-        });
-        p.u.store(i, u);
-      }
-    }
-  };
+  void sum(const problem<D, R>& p, const team& t, const backend_traits& own, const pass_marks& marks) override {
+    broken_none<D, R>::sum(p, t, own, marks);
+    if (t.threads() == 1 || p.counts != nullptr) return;
+    R* const drho = static_cast<R*>(p.u.begin[0]);
+    R* const first = std::find_if(drho, drho + p.fluid_count, [](R a) { return a != 0; });
+    if (first != drho + p.fluid_count) *first = std::nextafter(*first, 2 * *first);
+  }
 };
+template <int D, class R>
+using claims_equal_bits = bits_change_with_threads<true, D, R>;
+template <int D, class R>
+using admits_other_bits = bits_change_with_threads<false, D, R>;
 
 /// Right, but in the third sum it makes: with two stages a step, the first stage of the second step.
-struct wrong_in_third_sum {
-  static constexpr backend_traits traits = [] {
-    backend_traits t = broken_symmetric<fault::none>::traits;
-    t.name = "wrong_in_third_sum";
-    return t;
-  }();
-
-  template <class I>
-  struct workspace : broken_symmetric<fault::none>::workspace<I> {
-    int sums = 0;
-    template <class Probe>
-    void sum(const problem<I>& p, const team& t, Probe& probe) {
-      broken_symmetric<fault::none>::workspace<I>::sum(p, t, probe);
-      if (++sums == 3)
-        for (std::size_t i = 0; i < p.fluid_count; ++i) p.u.add(i, p.u.load(i));
-    }
-  };
+template <int D, class R>
+struct wrong_in_third_sum : broken_none<D, R> {
+  int sums = 0;
+  void sum(const problem<D, R>& p, const team& t, const backend_traits& own, const pass_marks& marks) override {
+    broken_none<D, R>::sum(p, t, own, marks);
+    if (++sums == 3) p.pairs->add(p.u, 0, p.u, 0, p.fluid_count);
+  }
 };
 
 inline registry lying_registry() {
-  using formula = ferrari09<3, double, wendland_c2>;
   registry r;
-  enrol_oracle<formula>(r);
-  const auto add = [&]<class Backend>() {
-    r.enrol_backend(Backend::traits);
-    enrol_summation<Backend, formula>(r);
-  };
-  add.template operator()<counts_one_too_many>();
-  add.template operator()<wrong_in_third_sum>();
-  add.template operator()<bits_change_with_threads<true>>();
-  add.template operator()<bits_change_with_threads<false>>();
+  r.add(test_kit::ferrari09_3d());
+  r.add(backend_entry::of<counts_one_too_many>("counts_one_too_many", runtime::serial));
+  r.add(backend_entry::of<wrong_in_third_sum>("wrong_in_third_sum", runtime::serial));
+  r.add(backend_entry::of<claims_equal_bits>("claims_equal_bits", runtime::omp));
+  r.add(backend_entry::of<admits_other_bits>("admits_other_bits", runtime::omp));
   return r;
 }
 
@@ -118,9 +84,10 @@ inline registry registry_with_reference_off_by(double off) {
   static double current = 0;  // a maker is a plain function
   current = off;
   registry r;
-  r.enrol_reference({"ferrari09", "wendland_c2", 3, "double"}, [](const setup& s) -> std::unique_ptr<reference> {
-    return std::make_unique<contradicts_itself>(registry::instance().make_reference(s), current);
-  });
+  r.add(formula_entry{
+      {"ferrari09", "wendland_c2", 3, "double"}, nullptr, [](const setup& s) -> std::unique_ptr<reference> {
+        return std::make_unique<contradicts_itself>(registry::instance().make_reference(s), current);
+      }});
   return r;
 }
 

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/rows/reader.hpp"
 #include "harness/run/study.hpp"
 #include "harness/run/worker.hpp"

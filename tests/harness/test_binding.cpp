@@ -12,8 +12,8 @@
 #include <atomic>
 #include <cstddef>
 
-#include "core/error.hpp"
-#include "core/tbb_arena.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/tbb_arena.hpp>
 #include "harness/measure/binding.hpp"
 #include "harness/measure/worker_team.hpp"
 

@@ -3,7 +3,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/run/interrupt.hpp"
 #include "harness/run/launch.hpp"
 #include "harness/verify/shared_store.hpp"

@@ -62,11 +62,11 @@ registry with_hoards() {
   registry r = registry::instance();
   backend_traits t = r.find_backend("naive").traits;
   t.name = "hoards";
-  r.enrol_wrapper(t, "naive", [](std::unique_ptr<summation> s, const setup&) -> std::unique_ptr<summation> {
+  r.add_wrapper(t, "naive", [](std::unique_ptr<summation> s, const setup&) -> std::unique_ptr<summation> {
     return std::make_unique<hoards>(std::move(s), "hoards", true);
   });
   t.name = "frees";
-  r.enrol_wrapper(t, "naive", [](std::unique_ptr<summation> s, const setup&) -> std::unique_ptr<summation> {
+  r.add_wrapper(t, "naive", [](std::unique_ptr<summation> s, const setup&) -> std::unique_ptr<summation> {
     return std::make_unique<hoards>(std::move(s), "frees", false);
   });
   return r;

@@ -4,9 +4,10 @@
 #include <limits>
 #include <numeric>
 
-#include "core/error.hpp"
-#include "core/isa.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/isa.hpp>
 #include "harness/plan/plan.hpp"
+#include "harness/plan/variants.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -68,62 +69,44 @@ TEST(plan, a_grid_that_takes_no_M_is_there_once) {
   EXPECT_EQ(points[2].grid + std::to_string(points[2].M), "compact_grid0");
 }
 
-std::unique_ptr<summation> as_it_is(std::unique_ptr<summation> inner, const setup&) { return inner; }
-
-/// With a vector backend that has blocks, and one without.
-registry vector_registry() {
-  registry r = registry::instance();
-  backend_traits t = r.find_backend("symmetric_omp").traits;
-  t.name = "vector";
-  t.vector = true;
-  r.enrol_wrapper(t, "symmetric_omp", as_it_is);
-  t.name = "vector_blocks";
-  t.blocks = true;
-  r.enrol_wrapper(t, "symmetric_omp", as_it_is);
-  return r;
-}
-
-TEST(plan, isa_and_block_vary_for_those_who_have_them) {
-  const registry all = vector_registry();
+TEST(plan, isa_varies_for_every_backend_and_block_for_those_who_have_them) {
   run_request r;
-  r.backends = {"naive_omp", "vector", "vector_blocks"};
+  r.backends = {"naive_omp", "tiles_omp"};
   r.M = {6};
-  r.isas = {"best", std::string(isa_names().back())};
+  r.isas = {"default", "scalar", "best"};
   r.blocks = {"auto", "slab:4"};
-  EXPECT_NO_THROW(check_request(r, all));
-  const std::size_t isas = isa_names().size() > 1 ? 2 : 1;  // best may be the only one
-  const auto points = expand(r, all).front();
+  EXPECT_NO_THROW(check_request(r));
+  const std::ptrdiff_t isas = isa_names().empty() ? 1 : 2;  // best is what a backend does by default, or scalar is
+  const auto points = expand(r).front();
   const auto of = [&](const char* backend) { return std::ranges::count(points, backend, &point::backend); };
-  EXPECT_EQ(of("naive_omp"), 1);
-  EXPECT_EQ(of("vector"), static_cast<std::ptrdiff_t>(isas));
-  EXPECT_EQ(of("vector_blocks"), static_cast<std::ptrdiff_t>(2 * isas));
+  EXPECT_EQ(of("naive_omp"), isas);
+  EXPECT_EQ(of("tiles_omp"), 2 * isas);
+  EXPECT_EQ(points.front().isa, "scalar") << "naive_omp's default";
+  const auto sets = isa_names();
   for (const point& p : points) {
-    EXPECT_NE(p.isa, "best");
-    EXPECT_EQ(p.block == "none", p.backend != "vector_blocks") << p.block;
-    EXPECT_NO_THROW(check_isa(p.backend == "naive_omp" ? "best" : p.isa));
+    EXPECT_TRUE(p.isa == "scalar" || std::ranges::find(sets, p.isa) != sets.end()) << p.isa;
+    EXPECT_EQ(p.block == "none", p.backend != "tiles_omp") << p.block;
   }
 }
 
-TEST(plan, a_backend_is_left_out_of_what_it_is_not_built_for) {
-  registry all = registry::instance();
-  backend_traits t = all.find_backend("symmetric_omp").traits;
-  t.name = "bare";
-  all.enrol_backend(t);  // built for nothing
-  run_request r;
-  r.backends = {"bare", "naive"};
-  r.M = {6};
-  EXPECT_NO_THROW(check_request(r, all));
-  ASSERT_EQ(expand(r, all).size(), 1u);
-  ASSERT_EQ(expand(r, all).front().size(), 1u);
-  EXPECT_EQ(expand(r, all).front().front().backend, "naive");
-  r.backends = {"bare"};
-  try {
-    check_request(r, all);
-    ADD_FAILURE() << "nothing is left to be measured";
-  } catch (const error& e) {
-    EXPECT_STREQ(e.what(),
-                 "none of the backends bare is built for ferrari09 with wendland_c2 in 3D and precision double");
-  }
+TEST(plan, what_cannot_be_had_on_vector_units_is_left_out_or_refused_with_the_reason) {
+  if (isa_names().empty()) GTEST_SKIP() << "no set of this build runs on this machine";
+  const auto refusal = [](const std::vector<std::string>& backends) -> std::string {
+    run_request r;
+    r.backends = backends;
+    r.M = {6};
+    r.isas = {"best"};
+    try {
+      check_request(r);
+    } catch (const error& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal({"atomic_add"}).find("cannot add atomically"), std::string::npos) << refusal({"atomic_add"});
+  EXPECT_NE(refusal({"naive_omp", "atomic_add"}).find("cannot add atomically"), std::string::npos);
+  EXPECT_EQ(refusal({"naive_omp"}), "");
+  EXPECT_EQ(refusal(available_backends()), "") << "nobody asked for it by name";
 }
 
 TEST(plan, order_is_a_permutation_that_seed_round_and_repetition_decide) {

@@ -4,17 +4,17 @@
 #include <map>
 #include <set>
 
+#include <pairsum/core/error.hpp>
+#include <pairsum/integrators/integrator.hpp>
+#include <pairsum/sum/setup_of.hpp>
 #include "broken_registry.hpp"
-#include "core/error.hpp"
 #include "harness/measure/worker_team.hpp"
 #include "harness/run/point_setup.hpp"
 #include "harness/self_test/self_test.hpp"
 #include "harness/self_test/slowed_summation.hpp"
 #include "harness/verify/verifier.hpp"
 #include "harness/verify/verify_all.hpp"
-#include "integrators/integrator.hpp"
 #include "study_fixture.hpp"
-#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -60,20 +60,12 @@ class timed_summation final : public forwarding_summation {
 };
 
 /// A sound serial backend under the name of one that the self-test copies.
-struct poses_as_naive_omp : broken_symmetric<fault::none> {
-  static constexpr backend_traits traits = [] {
-    backend_traits t = broken_symmetric<fault::none>::traits;
-    t.name = "naive_omp";
-    return t;
-  }();
-};
+backend_entry poses_as_naive_omp() { return backend_entry::of<broken_none>("naive_omp", runtime::serial); }
 
 registry impostor() {
-  using formula = ferrari09<3, double, wendland_c2>;
   registry r;
-  enrol_oracle<formula>(r);
-  r.enrol_backend(poses_as_naive_omp::traits);
-  enrol_summation<poses_as_naive_omp, formula>(r);
+  r.add(test_kit::ferrari09_3d());
+  r.add(poses_as_naive_omp());
   return r;
 }
 
@@ -105,7 +97,7 @@ TEST(self_test, copies_have_their_own_name_and_all_else_of_the_wrapped) {
       EXPECT_EQ(t.threads, base.threads);
       EXPECT_EQ(t.symmetric, base.symmetric);
       EXPECT_EQ(t.deterministic, base.deterministic);
-      EXPECT_EQ(t.accumulates, base.accumulates);
+      EXPECT_EQ(t.loop, base.loop);
     }
   }
 }
@@ -221,7 +213,9 @@ TEST(self_test, bases_that_were_not_built_are_left_out) {
   const registry none = with_self_test(broken_registry());
   EXPECT_EQ(none.backends().size(), broken_registry().backends().size());
   registry restricted = broken_registry();
-  restricted.enrol_backend(poses_as_naive_omp::traits, "not in this build");
+  backend_entry left_out = poses_as_naive_omp();
+  left_out.unavailable = "not in this build";
+  restricted.add(left_out);
   EXPECT_EQ(with_self_test(restricted).backends().size(), restricted.backends().size());
   const registry one = with_self_test(impostor());
   EXPECT_EQ(one.backends().size(), 1 + self_test_entries().size() / 2);
@@ -243,14 +237,14 @@ TEST(self_test, the_given_registry_stays_as_it_is) {
 
 TEST(registry, a_wrapper_needs_a_base_that_is_none_and_a_name_of_its_own) {
   const auto wrap = [](std::unique_ptr<summation> s, const setup&) { return s; };
-  backend_traits t = poses_as_naive_omp::traits;
+  backend_traits t = poses_as_naive_omp().traits;
   registry r = impostor();
-  EXPECT_THROW(r.enrol_wrapper(t, "naive_omp", wrap), error);
+  EXPECT_THROW(r.add_wrapper(t, "naive_omp", wrap), error);
   t.name = "another";
-  EXPECT_THROW(r.enrol_wrapper(t, "nope", wrap), error);
-  r.enrol_wrapper(t, "naive_omp", wrap);
+  EXPECT_THROW(r.add_wrapper(t, "nope", wrap), error);
+  r.add_wrapper(t, "naive_omp", wrap);
   t.name = "a_third";
-  EXPECT_THROW(r.enrol_wrapper(t, "another", wrap), error);
+  EXPECT_THROW(r.add_wrapper(t, "another", wrap), error);
   EXPECT_FALSE(has(r, "a_third"));
   EXPECT_THROW(with_self_test(with_self_test(impostor())), error);
 }

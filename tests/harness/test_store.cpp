@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/verify/pack.hpp"
 #include "harness/verify/shared_store.hpp"
 

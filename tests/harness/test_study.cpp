@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/plan/study.hpp"
 #include "harness/plan/variants.hpp"
 #include "harness/run/worker.hpp"

@@ -2,14 +2,14 @@
 
 #include <limits>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/sum/setup_of.hpp>
 #include "harness/run/point_setup.hpp"
 #include "harness/verify/pack.hpp"
 #include "harness/verify/shared_store.hpp"
 #include "harness/verify/verifier.hpp"
 #include "harness/verify/verify_all.hpp"
 #include "lying_backends.hpp"
-#include "sum/setup_of.hpp"
 
 namespace pairsum::harness {
 namespace {

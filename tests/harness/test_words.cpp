@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/plan/levels.hpp"
 #include "harness/plan/words.hpp"
 

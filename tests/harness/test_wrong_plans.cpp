@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/plan/study.hpp"
 #include "harness/run/order.hpp"
 #include "study_fixture.hpp"

@@ -41,11 +41,12 @@ inline bool touching(const particle_table& p, const std::string& precision) {
   return false;
 }
 
-/// A formula of this build in that dimension that the backend takes.
-inline rc::Gen<formula> any_formula(int dim, const std::string& backend) {
-  std::vector<formula> all = formulas();
-  std::erase_if(all,
-                [&](const formula& f) { return f.dim != dim || std::ranges::count(backends_for(f), backend) == 0; });
+/// A formula of this build that the backend takes: `count`, or any other.
+inline rc::Gen<formula_choice> some_formula(const std::string& backend, bool counts) {
+  std::vector<formula_choice> all = formulas();
+  std::erase_if(all, [&](const formula_choice& f) {
+    return (f.interaction == "count") != counts || std::ranges::count(backends_for(f), backend) == 0;
+  });
   return rc::gen::elementOf(all);
 }
 

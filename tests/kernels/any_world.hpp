@@ -3,8 +3,8 @@
 
 #include <fstream>
 
+#include <pairsum/integrators/with_state.hpp>
 #include "cloud.hpp"
-#include "integrators/with_state.hpp"
 
 // Worlds for grids: crowded, or so large that almost all of them is empty.
 namespace pairsum::test_kit {

@@ -5,7 +5,7 @@
 #include <ostream>
 #include <vector>
 
-#include "core/random.hpp"
+#include <pairsum/core/random.hpp>
 #include "scene.hpp"
 
 namespace pairsum::test_kit {

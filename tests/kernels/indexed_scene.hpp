@@ -1,10 +1,10 @@
 #pragma once
 #include <map>
 
-#include "grid/hashed_grid.hpp"
-#include "grid/indexer.hpp"
+#include <pairsum/grid/hashed_grid.hpp>
+#include <pairsum/grid/indexer.hpp>
+#include <pairsum/sum/grids.hpp>
 #include "scene.hpp"
-#include "sum/grids.hpp"
 
 namespace pairsum::test_kit {
 
@@ -17,11 +17,14 @@ struct indexed_scene {
   particle_set<3, double> particles;
   indexer<3, double> index;
 
+  setup world;
+
   indexed_scene(const scene& s, const grid_choice& grid, const team& t = team())
       : omega(make_box<3, double>(s.world)),
         cell_width(safe_width(omega, s.world.constants.H)),
         mask(grid.M > 0 ? (1 << grid.M) - 1 : -1),
-        index(omega, make_grid<3, double>(with(s.world, "naive", grid))) {
+        index(omega, make_grid<3, double>(with(s.world, "naive", grid))),
+        world(s.world) {
     if (s.world.periodic) period = torus_cells(omega, s.world.constants.H, grid.M > 0 ? 1 << grid.M : 2);
     fill(particles, s.particles);
     index.build(particles, t);

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sum/layers.hpp"
+#include <pairsum/schedule/layers.hpp>
 
 namespace pairsum::test_kit {
 

@@ -3,15 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "core/random.hpp"
-#include "integrators/integrator.hpp"
+#include <pairsum/core/random.hpp>
+#include <pairsum/integrators/integrator.hpp>
 #include "scene.hpp"
 
 // A smooth problem for the tests of integrators: clusters of particles on springs that cross many cells.
 namespace pairsum::test_kit {
 
-/// The interactions `oscillators`, and `count`, which has no dynamics, with the backends naive and symmetric; 1D, 2D
-/// and 3D in double, 3D in float; under AddressSanitizer, for which they take a minute to compile, 3D in double alone.
+/// The library's and the interaction `oscillators`: 1D, 2D and 3D in double, 3D in float; under AddressSanitizer, for
+/// which they take long to compile, 3D in double alone.
 const registry& oscillator_registry();
 
 constexpr std::uint32_t oscillator_count = 16;

@@ -1,30 +1,17 @@
 #include "oscillators.hpp"
 
-#include "backends/naive.hpp"
-#include "backends/symmetric.hpp"
-#include "interactions/count.hpp"
+#include <pairsum/pairsum.hpp>
 #include "oscillator_scene.hpp"
-#include "sum/enrol_everywhere.hpp"
 
 namespace pairsum::test_kit {
-namespace {
-
-template <int D, class R>
-void enrol(registry& r) {
-  enrol_everywhere<oscillators<D, R>>(r, backend_list<naive, symmetric>());
-  enrol_everywhere<count<D, R>>(r, backend_list<naive, symmetric>());
-}
-
-}  // namespace
-
 const registry& oscillator_registry() {
   static const registry all = [] {
-    registry r;
-    enrol<3, double>(r);
+    registry r = registry::instance();
+    r.add(formula_entry_of<oscillators<3, double>>());
 #ifndef PAIRSUM_SANITIZED
-    enrol<1, double>(r);
-    enrol<2, double>(r);
-    enrol<3, float>(r);
+    r.add(formula_entry_of<oscillators<1, double>>());
+    r.add(formula_entry_of<oscillators<2, double>>());
+    r.add(formula_entry_of<oscillators<3, float>>());
 #endif
     return r;
   }();

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "interactions/interaction.hpp"
+#include <pairsum/interactions/interaction.hpp>
 
 namespace pairsum::test_kit {
 

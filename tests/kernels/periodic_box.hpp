@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
+#include <pairsum/sum/grids.hpp>
 #include "cloud.hpp"
-#include "sum/grids.hpp"
 
 // Periodic boxes, and who is in whose reach there, by expressions of the tests' own.
 namespace pairsum::test_kit {

@@ -3,22 +3,44 @@
 #include <cmath>
 #include <sstream>
 
-#include "sum/grids.hpp"
+#include <pairsum/core/isa.hpp>
+#include <pairsum/core/random.hpp>
+#include <pairsum/sum/grids.hpp>
+#include <pairsum/sum/setup_of.hpp>
 
 namespace pairsum::test_kit {
 
 scene make_scene(std::string_view name, double dx, std::string_view state, std::uint64_t seed) {
-  case_parameters parameters;
-  parameters.dx = dx;
-  parameters.state = state;
-  parameters.seed = seed;
-  initial_condition made = make_case(name, parameters);
+  initial_condition made = make_case(name, {.dx = dx, .state = std::string(state), .seed = seed});
+  return {std::move(made.particles), setup_of(made)};
+}
+
+scene make_scene_in(int dim, std::string_view name, double dx, std::string_view state) {
+  initial_condition made = make_case(name, {.dim = dim, .dx = dx, .state = std::string(state)});
+  scene s{std::move(made.particles), setup_of(made)};
+  s.world.grid = "compact_grid";
+  return s;
+}
+
+scene crowded_cell() {
   scene s;
-  s.world.omega_low = made.omega_low;
-  s.world.omega_high = made.omega_high;
-  s.world.periodic = made.periodic;
-  s.world.constants = {made.H, made.eos};
-  s.particles = std::move(made.particles);
+  const double H = s.world.constants.H = 0.1;
+  s.world.omega_low = {0, 0, 0};
+  s.world.omega_high = {1, 1, 1};
+  const counter_random random(3);
+  const std::uint32_t few = 10, fluid = 2100, n = 6400;
+  s.particles.resize(n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    // The first few are in reach of the boundary, the other fluid is not.
+    const double left = i < few ? 0.45 : i < fluid ? 0.55 : 0;
+    for (std::uint32_t d = 0; d < 3; ++d) {
+      s.particles.x[d][i] = 0.41 + H * ((d == 0 ? left : 0) + 0.04 * random.uniform(3 * i + d));
+      s.particles.v[d][i] = random.uniform(3 * i + d + 100000, -1, 1);
+    }
+    s.particles.rho[i] = 1000 + i % 7;
+    s.particles.m[i] = 1e-3 * (1 + i % 3);
+    s.particles.kind[i] = i < fluid ? particle_kind::fluid : particle_kind::boundary;
+  }
   return s;
 }
 
@@ -37,14 +59,14 @@ setup with(setup s, std::string_view backend, const grid_choice& grid, std::stri
   return s;
 }
 
-std::vector<formula> formulas() {
-  std::vector<formula> all;
+std::vector<formula_choice> formulas() {
+  std::vector<formula_choice> all;
   for (const combination& c : registry::instance().formulas())
     all.push_back({c.dim, c.precision, c.interaction, c.smoothing.empty() ? "none" : c.smoothing});
   return all;
 }
 
-setup with(setup s, const formula& f, std::string_view backend, const grid_choice& grid) {
+setup with(setup s, const formula_choice& f, std::string_view backend, const grid_choice& grid) {
   s.precision = f.precision;
   s.smoothing = f.smoothing;
   return with(s, backend, grid, f.interaction);
@@ -57,11 +79,18 @@ std::vector<std::string> backend_names() {
   return names;
 }
 
-std::vector<std::string> backends_for(const formula& f) {
+std::vector<std::string> backends_for(const formula_choice& f) {
   std::vector<std::string> names = backend_names();
-  if (f.precision == "mixed")
-    std::erase_if(names, [](const auto& name) { return !registry::instance().find_backend(name).traits.vector; });
+  if (f.precision == "mixed") std::erase(names, "atomic_add");
   return names;
+}
+
+std::vector<std::string> isas_for(const formula_choice& f, const std::string& backend) {
+  std::vector<std::string> all;
+  if (f.precision != "mixed") all.emplace_back(scalar_isa);
+  if (f.interaction != "count" && backend != "atomic_add")
+    for (const std::string_view isa : isa_names()) all.emplace_back(isa);
+  return all;
 }
 
 std::unique_ptr<summation> evaluated(const setup& s, const particle_table& p, int threads) {

@@ -7,10 +7,10 @@
 #include <tuple>
 #include <vector>
 
-#include "cases/case.hpp"
-#include "core/error.hpp"
-#include "core/workers.hpp"
-#include "sum/registry.hpp"
+#include <pairsum/cases/case.hpp>
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/workers.hpp>
+#include <pairsum/sum/registry.hpp>
 
 /// What the tests of the library share: small worlds, teams, and the comparison of rates with an
 /// expectation.
@@ -52,21 +52,37 @@ inline std::vector<grid_choice> grids_without_M() { return every_grid({}); }
 setup with(setup s, std::string_view backend, const grid_choice& grid, std::string_view interaction = "ferrari09");
 
 /// What there is to sum, in one dimension and precision.
-struct formula {
+struct formula_choice {
   int dim;
   std::string precision, interaction, smoothing;  ///< smoothing is "none" where the interaction takes none
 };
-inline std::ostream& operator<<(std::ostream& o, const formula& f) {
+inline std::ostream& operator<<(std::ostream& o, const formula_choice& f) {
   return o << f.interaction << "_" << f.smoothing << "_" << f.dim << "D_" << f.precision;
 }
 
 /// Every formula of this build.
-std::vector<formula> formulas();
+std::vector<formula_choice> formulas();
 /// Those of its backends that take a formula.
-std::vector<std::string> backends_for(const formula& f);
+std::vector<std::string> backends_for(const formula_choice& f);
+/// On what a backend can sum a formula here: `scalar`, and the instruction sets of this build that this machine runs.
+std::vector<std::string> isas_for(const formula_choice& f, const std::string& backend);
+/// Backends that call, of a formula's functions: own, both plain, atomic and split, both of listed rows, those of half
+/// stencils and of full ones.
+inline const std::vector<std::string> callers{"naive_omp",     "symmetric_omp", "atomic_add",     "touched_blocks",
+                                              "pair_list_omp", "tiles_omp",     "naive_tiles_omp"};
+/// The talk's formula, and `count`.
+inline const std::vector<formula_choice> two_formulas{{3, "double", "ferrari09", "wendland_c2"},
+                                                      {3, "double", "count", "none"}};
+
+/// The case in another dimension, on a grid that folds nothing.
+scene make_scene_in(int dim, std::string_view name, double dx, std::string_view state);
+
+/// A cell with so many particles that lists are full: one has more partners than is kept room for, 6144 in all, or, as
+/// vector units take listed ones, 2048 of fluid.
+scene crowded_cell();
 
 /// The setup with a formula's words.
-setup with(setup s, const formula& f, std::string_view backend = "naive", const grid_choice& grid = 4);
+setup with(setup s, const formula_choice& f, std::string_view backend = "naive", const grid_choice& grid = 4);
 
 using pairsum::workers;
 

@@ -7,37 +7,32 @@
 
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <set>
 #include <string>
 
-#include "backends/atomic_add.hpp"
-#include "backends/colour18.hpp"
-#include "backends/colour4.hpp"
-#include "backends/half_cells.hpp"
-#include "backends/naive_omp.hpp"
-#include "backends/naive_tiles_omp.hpp"
-#include "backends/pair_list_omp.hpp"
-#include "backends/per_pass_buffers.hpp"
-#include "backends/ppm_stencil.hpp"
-#include "backends/sliced_2colour.hpp"
-#include "backends/sliced_locks.hpp"
-#include "backends/sphysics_sweep.hpp"
-#include "backends/symmetric_omp.hpp"
-#include "backends/task_conflicts.hpp"
-#include "backends/thread_private.hpp"
-#include "backends/tiles_omp.hpp"
-#include "backends/touched_blocks.hpp"
-#include "backends/verlet_list.hpp"
-#include "cases/lattice.hpp"
-#include "grid/indexer.hpp"
-#include "sum/setup_of.hpp"
+#include <pairsum/cases/case.hpp>
+#include <pairsum/grid/indexer.hpp>
+#include <pairsum/schedule/block_conflicts.hpp>
+#include <pairsum/schedule/coloured_cells.hpp>
+#include <pairsum/schedule/coloured_packs.hpp>
+#include <pairsum/schedule/half_blocks.hpp>
+#include <pairsum/schedule/locked_slabs.hpp>
+#include <pairsum/schedule/slab_colours.hpp>
+#include <pairsum/schedule/touched_pieces.hpp>
+#include <pairsum/sum/grids.hpp>
+#include <pairsum/sum/registry.hpp>
+#include <pairsum/sum/setup_of.hpp>
 #include "unit_trace.hpp"
 
 namespace pairsum {
 namespace {
 
-using test_kit::watched_rates;
-using I = count<2, double>;
+using test_kit::counted_problem;
+using test_kit::schedule_of;
+using test_kit::unit_observer;
+using problem_2d = problem<2, double>;
+using schedule_2d = schedule<2, double>;
 using place = std::array<int, 2>;
 using places = std::set<place>;
 
@@ -54,25 +49,21 @@ struct square {
 class scene_in_2d {
  public:
   explicit scene_in_2d(const square& w)
-      : start_(start_of(w)),
-        world(setup_of(start_)),
-        index_(make_box<2, double>(world), grid_of(w)),
-        columns_(world.constants, make_torus<2, double>(world)) {
+      : start_(start_of(w)), world(setup_of(start_)), index_(make_box<2, double>(world), grid_of(w)) {
     world.grid = w.grid;
     world.block = w.block;
     world.cores = 1;
     fill(particles_, start_.particles);
     index_.build(particles_, team());
-    columns_.derive(particles_, index_.fluid(), index_.boundary(), team());
-    columns_.zero_rates(team());
-    p = columns_.view(particles_, index_.view());
-    p.reach2 = p.boundary_reach2 = std::numeric_limits<double>::max();
+    counted.emplace(particles_, index_, world);
   }
+  const cells<2>& all_cells() const { return index_.view(); }
 
   /// Where particles lie, in cells cut in `parts` along each edge.
-  places of(const std::vector<std::uint32_t>& particles, int parts = 1) const {
+  template <class Particles>
+  places of(const Particles& particles, int parts = 1) const {
     places found;
-    const cells<2>& c = p.cells();
+    const cells<2>& c = all_cells();
     for (const std::uint32_t i : particles) {
       place at{};
       for (int d = 0; d < 2; ++d) {
@@ -83,7 +74,7 @@ class scene_in_2d {
     }
     return found;
   }
-  place of_cell(std::size_t cell) const { return as_place(p.cells().place[cell]); }
+  place of_cell(std::size_t cell) const { return as_place(all_cells().place[cell]); }
   places of_cells(std::span<const std::uint32_t> cells) const {
     places found;
     for (const std::uint32_t cell : cells) found.insert(of_cell(cell));
@@ -96,25 +87,25 @@ class scene_in_2d {
   }
   /// The base cell, -1 at the least if that is beside the grid.
   place base(const block<2>& members) const {
-    ivec<2> at = base_of<2>(members, p.cells());
+    ivec<2> at = base_of<2>(members, all_cells());
     for (int d = 0; d < 2; ++d)
-      if (p.cells().period[d] > 0) at[d] = (at[d] + p.cells().period[d]) % p.cells().period[d];
+      if (all_cells().period[d] > 0) at[d] = (at[d] + all_cells().period[d]) % all_cells().period[d];
     return as_place(at);
   }
   /// The cells that a gather of this cell reads.
   places around(const places& own) const {
     places found;
-    for (std::size_t cell = 1; cell <= p.cells().fluid_cells; ++cell)
+    for (std::size_t cell = 1; cell <= all_cells().fluid_cells; ++cell)
       if (own.count(of_cell(cell)) > 0)
         for (unsigned n = 0; n < cells<2>::stencil; ++n)
-          if (const std::uint32_t other = p.cells().neighbour(cell, n); other != 0) found.insert(of_cell(other));
+          if (const std::uint32_t other = all_cells().neighbour(cell, n); other != 0) found.insert(of_cell(other));
     return found;
   }
 
  private:
   static place as_place(const ivec<2>& at) { return {static_cast<int>(at[0]), static_cast<int>(at[1])}; }
   static initial_condition start_of(const square& w) {
-    initial_condition made = lattice::make({.dim = 2, .dx = 1.0 / (w.cells * w.per_edge)});
+    initial_condition made = make_case("lattice", {.dim = 2, .dx = 1.0 / (w.cells * w.per_edge)});
     made.H = 1.0 / w.cells;
     return made;
   }
@@ -130,18 +121,20 @@ class scene_in_2d {
 
  public:
   setup world;
-  problem<I> p;
 
  private:
   particle_set<2, double> particles_;
   indexer<2, double> index_;
-  interaction_columns<I> columns_;
+
+ public:
+  std::optional<counted_problem<2>> counted;
 };
 
-/// What a unit wrote, by column watched, while it held the same locks.
+/// What a unit wrote while it held the same locks: to rates or copies of them, by their memory, and to buffers.
 struct stretch_of_unit {
   std::int32_t low = -1, high = -1;
-  std::vector<std::vector<std::uint32_t>> written;
+  std::map<const void*, std::set<std::uint32_t>> written;
+  std::set<std::uint32_t> buffered;
 };
 struct unit_record {
   unsigned pass;
@@ -149,48 +142,95 @@ struct unit_record {
   std::vector<stretch_of_unit> stretches;
 };
 
-/// As test_kit::unit_trace, for several columns: the rates and copies of them.
-class columns_trace : public no_probe {
+/// The formula's functions, between which the rates are looked at: whatever schedules say of themselves.
+class units_trace : public unit_observer, public pair_sum<2, double> {
  public:
-  void watch(const field_pointers<rates_of<I>>& u, std::size_t n) { columns_.emplace_back(u, n); }
-  void unit_begins(unsigned pass, std::size_t k) {
-    close();
-    units.push_back({pass, k, {stretch_of_unit()}});
-    open_ = true;
-  }
-  void locks(std::int32_t low, std::int32_t high) {
-    close();
-    units.back().stretches.push_back({low, high, {}});
-    open_ = true;
-  }
-  /// To be called after the sum, too.
-  void close() {
-    std::vector<std::vector<std::uint32_t>> written;
-    for (auto& column : columns_) written.push_back(column.changed());
-    if (open_) units.back().stretches.back().written = std::move(written);
-    open_ = false;
+  units_trace(const problem_2d& p, int threads)
+      : pair_sum<2, double>(*p.pairs), by_thread(static_cast<std::size_t>(threads)), right_(*p.pairs) {
+    each_update<update::plain>();
+    each_update<update::atomic>();
+    each_update<update::split>();
+    own = [](const void* call, const row* rows, std::size_t n) { look_at(call, rows, n, of(call).right_.own); };
   }
 
-  std::vector<unit_record> units;
+  void unit_begins(unsigned pass, std::size_t k) override {
+    by_thread[static_cast<std::size_t>(omp_get_thread_num())].push_back({pass, k, {stretch_of_unit()}});
+  }
+  void locks(std::int32_t low, std::int32_t high) { by_thread[0].back().stretches.push_back({low, high, {}, {}}); }
+
+  std::vector<std::vector<unit_record>> by_thread;
 
  private:
-  std::vector<watched_rates<I>> columns_;
-  bool open_ = false;
+  static const sum_call<2, double>& as_call(const void* call) { return *static_cast<const sum_call<2, double>*>(call); }
+  static units_trace& of(const void* call) {
+    return const_cast<units_trace&>(static_cast<const units_trace&>(*as_call(call).p.pairs));
+  }
+  template <update How>
+  void each_update() {
+    both[static_cast<unsigned>(How)] = [](const void* call, const row* rows, std::size_t n) {
+      look_at(call, rows, n, of(call).right_.both[static_cast<unsigned>(How)]);
+    };
+  }
+  static void look_at(const void* call, const row* rows, std::size_t n, rows_function right) {
+    const auto& c = as_call(call);
+    const auto* const u = static_cast<const std::uint64_t*>(c.to.u.begin[0]);
+    const std::vector<std::uint64_t> before(u, u + c.p.fluid_count);
+    const auto in_buffer = [&](std::uint32_t i) -> const std::uint64_t* {
+      if (c.to.slot == nullptr || c.to.slot[i / split_block] == unsplit) return nullptr;
+      return static_cast<const std::uint64_t*>(c.to.buffer.begin[0]) + c.to.slot[i / split_block] * split_block +
+             i % split_block;
+    };
+    std::map<std::uint32_t, std::uint64_t> buffers;
+    const auto name = [&](std::uint32_t i) {
+      if (const std::uint64_t* const at = in_buffer(i)) buffers[i] = *at;
+    };
+    for (const row* r = rows; r != rows + n; ++r) {
+      name(r->i);
+      for (std::uint32_t k = 0; k < r->fluid_count; ++k) name(r->fluid[k]);
+    }
+    right(call, rows, n);
+    stretch_of_unit& now = of(call).by_thread[static_cast<std::size_t>(c.to.thread)].back().stretches.back();
+    for (std::uint32_t i = 0; i < before.size(); ++i)
+      if (u[i] != before[i]) now.written[u].insert(i);
+    for (const auto& [i, was] : buffers)
+      if (*in_buffer(i) != was) now.buffered.insert(i);
+  }
+
+  const pair_sum<2, double>& right_;
 };
 
 /// In place of locks: tells the trace which would be held.
 struct traced_locks {
-  columns_trace* trace = nullptr;
+  static inline units_trace* trace = nullptr;
   void resize(std::size_t) {}
   struct guard {
-    columns_trace* trace;
     template <class Wait>
-    guard(traced_locks& locks, std::int32_t low, std::int32_t high, Wait&&) : trace(locks.trace) {
+    guard(traced_locks&, std::int32_t low, std::int32_t high, Wait&&) {
       trace->locks(low, high);
     }
     ~guard() { trace->locks(-1, -1); }
   };
 };
+
+/// What the units of a schedule did, on threads of the team that sums, by thread.
+std::vector<std::vector<unit_record>> traced(scene_in_2d& s, schedule_2d& tried, const backend_traits& t,
+                                             const team& prepares, const team& sums) {
+  problem_2d p = s.counted->p;
+  units_trace trace(p, sums.threads());
+  traced_locks::trace = &trace;
+  p.pairs = &trace;
+  p.threads = prepares.threads();
+  tried.prepare(p, prepares);
+  tried.zero(p, prepares);
+  tried.sum(p, sums, t, pass_marks(&trace));
+  return std::move(trace.by_thread);
+}
+const backend_entry& backend(std::string_view name) { return registry::instance().find_backend(std::string(name)); }
+/// On one thread.
+std::vector<unit_record> traced(scene_in_2d& s, schedule_2d& tried, const backend_traits& t) {
+  const workers one(t.threads, 1);
+  return traced(s, tried, t, one.get(), one.get()).front();
+}
 
 // ---- JSON
 
@@ -242,7 +282,7 @@ class drawing {
  private:
   static int extent(const scene_in_2d& s) {
     int most = 0;
-    for (std::size_t cell = 1; cell <= s.p.cells().fluid_cells; ++cell)
+    for (std::size_t cell = 1; cell <= s.all_cells().fluid_cells; ++cell)
       for (const int x : s.of_cell(cell)) most = std::max(most, x + 1);
     return most;
   }
@@ -251,76 +291,55 @@ class drawing {
   std::map<unsigned, std::vector<drawn_unit>> passes_;
 };
 
-template <class W>
-std::string block_of(const W& workspace) {
-  if constexpr (requires { workspace.block(); })
-    return workspace.block();
-  else
-    return "none";
-}
-
-/// Units of a backend that writes to the rates alone; own(scene, workspace, pass, k): the cells that a unit goes over,
-/// of those it writes to.
-template <class B, class Own>
-std::string units(const square& w, Own&& own, std::string_view name = B::traits.name, int parts = 1) {
+/// Units of a backend that writes to the rates alone; own(scene, block, pass, k): the cells that a unit goes over, of
+/// those it writes to.
+template <class Own>
+std::string units(std::string_view name, const square& w, Own&& own, std::string_view title = {}, int parts = 1) {
+  const backend_entry& b = backend(name);
   scene_in_2d s(w);
-  typename B::template workspace<I> workspace;
-  configure(workspace, s.world);
-  columns_trace trace;
-  with_one_thread(B::traits.threads, [&](const team& one) {
-    workspace.prepare(s.p, one, trace);
-    trace.watch(s.p.u, s.p.fluid_count);
-    workspace.sum(s.p, one, trace);
-  });
-  trace.close();
-  drawing d(std::string(name), w, s, block_of(workspace), parts);
-  for (const unit_record& u : trace.units) {
+  const auto tried = schedule_of<2>(b, s.world);
+  const auto records = traced(s, *tried, b.traits);
+  drawing d(std::string(title.empty() ? name : title), w, s, tried->block(), parts);
+  for (const unit_record& u : records) {
     drawn_unit drawn;
-    drawn.sets["own"] = own(s, workspace, u.pass, u.number);
-    drawn.sets["rates"] = s.of(u.stretches[0].written[0], parts);
-    if (!B::traits.symmetric) drawn.sets["reads"] = s.around(drawn.sets["own"]);
+    drawn.sets["own"] = own(s, tried->block(), u.pass, u.number);
+    places& rates = drawn.sets["rates"];
+    for (const auto& [memory, written] : u.stretches[0].written) rates.merge(s.of(written, parts));
+    if (!b.traits.symmetric) drawn.sets["reads"] = s.around(drawn.sets["own"]);
     d.add(u.pass, std::move(drawn));
   }
   return d.json();
 }
 
-/// Of the blocks whose word the workspace tells.
 template <bool one_pass>
-constexpr auto own_of_blocks = [](const scene_in_2d& s, const auto& workspace, unsigned pass, std::size_t k) {
+constexpr auto own_of_blocks = [](const scene_in_2d& s, const std::string& word, unsigned pass, std::size_t k) {
   cell_blocks<2> blocks;
-  blocks.shape(block_shape::parse(workspace.block()), one_pass);
-  blocks.build(s.p.cells());
+  blocks.shape(block_shape::parse(word), one_pass);
+  blocks.build(s.all_cells());
   return s.of_cells(blocks(pass, k));
 };
-constexpr auto own_cell = [](const scene_in_2d& s, const auto&, unsigned, std::size_t k) {
+constexpr auto own_cell = [](const scene_in_2d& s, const std::string&, unsigned, std::size_t k) {
   return places{s.of_cell(k + 1)};
 };
+coloured_blocks<2> base_blocks_of(const scene_in_2d& s) {
+  coloured_blocks<2> blocks;
+  blocks.build(s.all_cells(), team());
+  return blocks;
+}
 
 /// Three threads with fixed pieces of 32 cells: the copy each of them has, what it wrote there, and the cells it swept.
 std::string private_copies() {
-  struct threads_of_units : no_probe {
-    std::vector<int> thread;
-    void unit_begins(unsigned, std::size_t k) { thread[k] = omp_get_thread_num(); }
-  };
   const square w;
   scene_in_2d s(w);
-  const team three = team::omp(3).with({schedule::fixed, 32});
-  thread_private::workspace<I> workspace;
-  threads_of_units probe;
-  probe.thread.assign(s.p.cells().fluid_cells, -1);
-  workspace.prepare(s.p, three, probe);
-  workspace.zero(s.p, three);
-  workspace.sum(s.p, three, probe);
+  const backend_entry& b = backend("thread_private");
+  const team three = team::omp(3).with({loop_schedule::fixed, 32});
   drawing d("thread_private", w, s);
-  for (std::size_t k = 0; k < workspace.copies.copies(); ++k) {
+  for (const auto& records : traced(s, *schedule_of<2>(b, s.world), b.traits, three, three)) {
     drawn_unit drawn;
-    const auto u = workspace.copies.with_copy(s.p, k).u;
-    std::vector<std::uint32_t> written;
-    for (std::uint32_t i = 0; i < s.p.fluid_count; ++i)
-      if (u.load(i).neighbours != 0) written.push_back(i);
-    drawn.sets["copy"] = s.of(written);
-    for (std::size_t cell = 0; cell < probe.thread.size(); ++cell)
-      if (probe.thread[cell] == static_cast<int>(k)) drawn.sets["own"].insert(s.of_cell(cell + 1));
+    for (const unit_record& u : records) {
+      drawn.sets["own"].insert(s.of_cell(u.number + 1));
+      for (const auto& [memory, written] : u.stretches[0].written) drawn.sets["copy"].merge(s.of(written));
+    }
     d.add(0, std::move(drawn));
   }
   return d.json();
@@ -330,22 +349,16 @@ std::string private_copies() {
 std::string pass_copies() {
   const square w;
   scene_in_2d s(w);
-  per_pass_buffers::workspace<I> workspace;
-  columns_trace trace;
-  const team one = team::omp(1);
-  workspace.prepare(s.p, one, trace);
-  for (std::size_t k = 0; k < workspace.copies.copies(); ++k) {
-    const auto u = workspace.copies.with_copy(s.p, k).u;
-    zero_range(u, 0, s.p.fluid_count);
-    trace.watch(u, s.p.fluid_count);
-  }
-  workspace.sum(s.p, one, trace);
-  trace.close();
+  const backend_entry& b = backend("per_pass_buffers");
+  const coloured_blocks<2> blocks = base_blocks_of(s);
   drawing d("per_pass_buffers", w, s);
-  for (const unit_record& u : trace.units)
-    for (unsigned k = 0; k < workspace.copies.copies(); ++k)
-      if (const auto& written = u.stretches[0].written[k]; !written.empty())
-        d.add(k, {{{"own", {s.base(workspace.blocks[k][u.number])}}, {"copy", s.of(written)}}, {}});
+  unsigned pass = 0;
+  std::size_t before = 0;  // blocks of the passes before
+  for (const unit_record& u : traced(s, *schedule_of<2>(b, s.world), b.traits)) {
+    for (; u.number - before >= blocks[pass].size(); ++pass) before += blocks[pass].size();
+    for (const auto& [memory, written] : u.stretches[0].written)
+      d.add(pass, {{{"own", {s.base(blocks[pass][u.number - before])}}, {"copy", s.of(written)}}, {}});
+  }
   return d.json();
 }
 
@@ -353,57 +366,50 @@ std::string pass_copies() {
 std::string buffered_blocks() {
   const square w{.cells = 12, .per_edge = 11};
   scene_in_2d s(w);
-  touched_blocks::workspace<I> workspace;
-  columns_trace trace;
-  const team one = team::omp(1);
-  workspace.prepare(s.p, one, trace);
-  const auto buffer = workspace.buffer.pointers();
-  const std::size_t size = workspace.block_size, slots = workspace.pieces.slots();
-  zero_range(buffer, 0, slots * size);
-  trace.watch(s.p.u, s.p.fluid_count);
-  trace.watch(buffer, slots * size);
-  workspace.sum(s.p, one, trace);
-  trace.close();
-  std::vector<std::size_t> block_of_slot(slots);
-  for (std::size_t b = 0; b < workspace.pieces.blocks(); ++b)
-    for (std::size_t slot = workspace.pieces.first_slot(b); slot < workspace.pieces.first_slot(b + 1); ++slot)
-      block_of_slot[slot] = b;
+  const backend_entry& b = backend("touched_blocks");
+  touched_pieces<2> pieces;
+  pieces.build(s.all_cells(), s.counted->p.fluid_count, team());
   drawing d("touched_blocks", w, s);
-  for (const unit_record& u : trace.units) {
-    std::vector<std::uint32_t> in_buffer;
-    for (const std::uint32_t at : u.stretches[0].written[1])
-      in_buffer.push_back(static_cast<std::uint32_t>(block_of_slot[at / size] * size + at % size));
-    const auto& piece = workspace.pieces[u.number];
-    d.add(0, {{{"own", s.of_cells(piece.cell_begin, piece.cell_end)},
-               {"rates", s.of(u.stretches[0].written[0])},
-               {"copy", s.of(in_buffer)}},
-              {}});
+  for (const unit_record& u : traced(s, *schedule_of<2>(b, s.world), b.traits)) {
+    const auto& piece = pieces[u.number];
+    drawn_unit drawn;
+    drawn.sets["own"] = s.of_cells(piece.cell_begin, piece.cell_end);
+    places& rates = drawn.sets["rates"];
+    for (const auto& [memory, written] : u.stretches[0].written) rates.merge(s.of(written));
+    drawn.sets["copy"] = s.of(u.stretches[0].buffered);
+    d.add(0, std::move(drawn));
   }
   return d.json();
+}
+
+std::vector<cell_layer> layers_of(const scene_in_2d& s) {
+  std::vector<cell_layer> layers;
+  find_layers(s.all_cells(), layers);
+  return layers;
 }
 
 /// Slabs for three threads, one after the other.
 std::string slabs_with_locks() {
   const square w;
   scene_in_2d s(w);
-  sliced_workspace<I, traced_locks> workspace;
-  columns_trace trace;
-  workspace.locks.trace = &trace;
-  workspace.prepare(s.p, team::omp(3), trace);
-  trace.watch(s.p.u, s.p.fluid_count);
-  workspace.sum(s.p, team::omp(1), sliced_locks::traits.loop, trace);
-  trace.close();
+  const cells<2>& c = s.all_cells();
+  const std::vector<cell_layer> layers = layers_of(s);
+  std::vector<std::uint64_t> work;
+  for (const cell_layer& layer : layers) work.push_back(candidates_in(c, layer));
+  const std::vector<slab> slabs = cut_slabs(layers, work, layers_around(c), 3);
+  slabs_with<2, double, traced_locks> tried;
   drawing d("sliced_locks", w, s);
-  for (const unit_record& u : trace.units) {
+  const auto records = traced(s, tried, tried.traits, team::omp(3), team::omp(1));
+  for (const unit_record& u : records.front()) {
     drawn_unit drawn;
-    for (const stretch& part : workspace.slabs[u.number]) drawn.sets["own"].merge(s.of_cells(part.begin, part.end));
-    for (const stretch_of_unit& part : u.stretches) {
-      if (part.written.empty()) continue;
-      const places written = s.of(part.written[0]);
-      drawn.sets["rates"].insert(written.begin(), written.end());
-      for (const std::int32_t lock : {part.low, part.high})
-        if (lock >= 0 && !written.empty()) drawn.locks[lock].insert(written.begin(), written.end());
-    }
+    for (const stretch& part : slabs[u.number]) drawn.sets["own"].merge(s.of_cells(part.begin, part.end));
+    for (const stretch_of_unit& part : u.stretches)
+      for (const auto& [memory, particles] : part.written) {
+        const places written = s.of(particles);
+        drawn.sets["rates"].insert(written.begin(), written.end());
+        for (const std::int32_t lock : {part.low, part.high})
+          if (lock >= 0) drawn.locks[lock].insert(written.begin(), written.end());
+      }
     d.add(0, std::move(drawn));
   }
   return d.json();
@@ -413,27 +419,27 @@ std::string slabs_with_locks() {
 std::string tasks() {
   const square w{.block = "brick:3"};
   scene_in_2d s(w);
-  task_conflicts::workspace<I> workspace;
-  configure(workspace, s.world);
-  columns_trace trace;
-  with_one_thread(runtime::tbb, [&](const team& one) {
-    workspace.prepare(s.p, one, trace);
-    trace.watch(s.p.u, s.p.fluid_count);
-    workspace.sum(s.p, one, trace);
-  });
-  trace.close();
-  const std::vector<block_pair> conflicts = conflicts_of(s.p.cells(), workspace.blocks);
-  const std::vector<unsigned> colour = colours_for(workspace.blocks.size(0), conflicts);
-  std::ranges::sort(trace.units, {}, &unit_record::number);
+  const backend_entry& b = backend("task_conflicts");
+  const auto tried = schedule_of<2>(b, s.world);
+  auto records = traced(s, *tried, b.traits);
+  cell_blocks<2> blocks;
+  blocks.shape(block_shape::parse(tried->block()), true);
+  blocks.build(s.all_cells());
+  const std::vector<block_pair> conflicts = conflicts_of(s.all_cells(), blocks);
+  const std::vector<unsigned> colour = colours_for(blocks.size(0), conflicts);
+  std::ranges::sort(records, {}, &unit_record::number);
   std::vector<std::pair<unsigned, std::uint32_t>> by_colour;
-  for (std::uint32_t k = 0; k < trace.units.size(); ++k) by_colour.emplace_back(colour[k], k);
+  for (std::uint32_t k = 0; k < records.size(); ++k) by_colour.emplace_back(colour[k], k);
   std::ranges::sort(by_colour);
   std::vector<std::uint32_t> at(by_colour.size());  // where a task is drawn
   for (std::uint32_t k = 0; k < by_colour.size(); ++k) at[by_colour[k].second] = k;
-  drawing d("task_conflicts", w, s, workspace.block());
-  for (const auto& [own_colour, k] : by_colour)
-    d.add(own_colour,
-          {{{"own", s.of_cells(workspace.blocks(0, k))}, {"rates", s.of(trace.units[k].stretches[0].written[0])}}, {}});
+  drawing d("task_conflicts", w, s, tried->block());
+  for (const auto& [own_colour, k] : by_colour) {
+    drawn_unit drawn;
+    drawn.sets["own"] = s.of_cells(blocks(0, k));
+    for (const auto& [memory, written] : records[k].stretches[0].written) drawn.sets["rates"].merge(s.of(written));
+    d.add(own_colour, std::move(drawn));
+  }
   std::vector<block_pair> edges;
   for (const auto& [a, b] : conflicts) edges.emplace_back(std::min(at[a], at[b]), std::max(at[a], at[b]));
   d.edges(edges);
@@ -442,43 +448,58 @@ std::string tasks() {
 
 std::vector<std::string> all() {
   const square plain, seam{.cells = 8, .grid = "hashed_grid", .M = 3};
-  const auto coloured_cell = [](const scene_in_2d& s, const auto& w, unsigned pass, std::size_t k) {
-    return places{s.of_cell(w.by_colour[pass][k])};
+  const auto coloured_cell = [](const scene_in_2d& s, const std::string&, unsigned pass, std::size_t k) {
+    coloured_cells<2> by_colour;
+    by_colour.build(s.all_cells());
+    return places{s.of_cell(by_colour[pass][k])};
   };
-  const auto half_base = [](const scene_in_2d& s, const auto& w, unsigned pass, std::size_t k) {
-    const auto unit = w.blocks(pass, k);
+  const auto half_base = [](const scene_in_2d& s, const std::string&, unsigned pass, std::size_t k) {
+    half_blocks<2> blocks;
+    blocks.build(s.all_cells(), team());
+    const auto unit = blocks(pass, k);
     place at = s.base(*unit.cells);
     for (int d = 0; d < 2; ++d) at[d] = 2 * at[d] + static_cast<int>(unit.part >> d & 1);
     return places{at};
   };
-  const auto packed_bases = [](const scene_in_2d& s, const auto& w, unsigned pass, std::size_t k) {
+  const auto packed_bases = [](const scene_in_2d& s, const std::string&, unsigned pass, std::size_t k) {
+    coloured_packs<2> packs;
+    packs.build(s.all_cells());
     places found;
-    for (std::size_t b = w.packs(pass, k).begin; b < w.packs(pass, k).end; ++b)
-      found.insert(s.base(w.packs.blocks()[b]));
+    for (std::size_t b = packs(pass, k).begin; b < packs(pass, k).end; ++b) found.insert(s.base(packs.blocks()[b]));
     return found;
   };
-  return {units<naive_omp>(plain, own_cell),
-          units<naive_tiles_omp>({.block = "brick:4"}, own_of_blocks<true>),
-          units<sphysics_sweep>(plain, own_cell),
-          units<ppm_stencil>(plain, [](const scene_in_2d& s, const auto& w, unsigned,
-                                       std::size_t k) { return places{s.base(w.blocks[k])}; }),
-          units<symmetric_omp>(plain, [](const scene_in_2d& s, const auto& w, unsigned pass,
-                                         std::size_t k) { return places{s.base(w.blocks[pass][k])}; }),
-          units<tiles_omp>({.block = "brick:2"}, own_of_blocks<false>),
-          units<colour18>(plain, coloured_cell),
-          units<colour18>(seam, coloured_cell, "colour18_seam"),
-          units<colour4>({.cells = 16}, packed_bases),
-          units<half_cells>(plain, half_base, "half_cells", 2),
-          units<half_cells>(seam, half_base, "half_cells_seam", 2),
-          units<pair_list_omp>({.block = "slab:2"}, own_of_blocks<false>),
-          units<verlet_list>({.block = "slab:2", .skin = verlet_list::traits.skin}, own_of_blocks<false>),
-          units<sliced_2colour>(plain,
-                                [](const scene_in_2d& s, const auto& w, unsigned pass, std::size_t k) {
-                                  return s.of_cells(w.slabs[pass][k].begin, w.slabs[pass][k].end);
-                                }),
+  const auto every_base = [](const scene_in_2d& s, const std::string&, unsigned, std::size_t k) {
+    std::vector<block<2>> blocks;
+    each_block(s.all_cells(), 1, s.all_cells().fluid_cells + 1,
+               [&](unsigned, const block<2>& b) { blocks.push_back(b); });
+    return places{s.base(blocks[k])};
+  };
+  const auto base = [](const scene_in_2d& s, const std::string&, unsigned pass, std::size_t k) {
+    return places{s.base(base_blocks_of(s)[pass][k])};
+  };
+  const auto slab_of = [](const scene_in_2d& s, const std::string&, unsigned pass, std::size_t k) {
+    const auto layers = layers_of(s);
+    const slab_colours cut(slab_thickness(s.counted->p.fluid_count, layers.size()), layers_around(s.all_cells()));
+    const slab_cells slab = coloured_slabs(layers, cut)[pass][k];
+    return s.of_cells(slab.begin, slab.end);
+  };
+  return {units("naive_omp", plain, own_cell),
+          units("naive_tiles_omp", {.block = "brick:4"}, own_of_blocks<true>),
+          units("sphysics_sweep", plain, own_cell),
+          units("ppm_stencil", plain, every_base),
+          units("symmetric_omp", plain, base),
+          units("tiles_omp", {.block = "brick:2"}, own_of_blocks<false>),
+          units("colour18", plain, coloured_cell),
+          units("colour18", seam, coloured_cell, "colour18_seam"),
+          units("colour4", {.cells = 16}, packed_bases),
+          units("half_cells", plain, half_base, "half_cells", 2),
+          units("half_cells", seam, half_base, "half_cells_seam", 2),
+          units("pair_list_omp", {.block = "slab:2"}, own_of_blocks<false>),
+          units("verlet_list", {.block = "slab:2", .skin = backend("verlet_list").traits.skin}, own_of_blocks<false>),
+          units("sliced_2colour", plain, slab_of),
           slabs_with_locks(),
           tasks(),
-          units<atomic_add>(plain, own_cell),
+          units("atomic_add", plain, own_cell),
           private_copies(),
           pass_copies(),
           buffered_blocks()};

@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "core/workers.hpp"
+#include <pairsum/core/workers.hpp>
+#include <pairsum/sum/agreement.hpp>
 #include "scene.hpp"
-#include "sum/agreement.hpp"
 
 namespace pairsum {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <thread>
 
+#include <pairsum/schedule/cell_blocks.hpp>
 #include "cloud.hpp"
-#include "sum/cell_blocks.hpp"
 
 // Which blocks `auto` makes: by the cache, by how many a colour needs, and by what goes round a torus.
 namespace pairsum {

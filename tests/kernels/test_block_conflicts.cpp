@@ -1,10 +1,10 @@
-#include "sum/block_conflicts.hpp"
+#include <pairsum/schedule/block_conflicts.hpp>
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "core/random.hpp"
+#include <pairsum/core/random.hpp>
 #include "torus.hpp"
 
 // Blocks as tasks: of two that write to a common cell one waits for the other, and nobody waits for nothing.

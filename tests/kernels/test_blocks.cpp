@@ -2,10 +2,9 @@
 
 #include <set>
 
+#include <pairsum/schedule/block.hpp>
 #include "indexed_scene.hpp"
-#include "interactions/count.hpp"
-#include "sum/block.hpp"
-#include "sum/summation_of.hpp"
+#include "unit_trace.hpp"
 
 // The race test on real data, independent of any schedule: which particles each block may write,
 // and which it writes.
@@ -20,7 +19,7 @@ std::size_t conflicts(const blocks& pass, const cells<3>& c, std::size_t fluid) 
   std::vector<int> writers(fluid, 0);
   for (const block<3>& b : pass)
     for (const std::uint32_t cell : b)
-      for (auto i = c.range[cell].fluid_begin; i < c.range[cell].fluid_end; ++i) ++writers[i];
+      for (auto i = c.range[cell].fluid.begin; i < c.range[cell].fluid.end; ++i) ++writers[i];
   return static_cast<std::size_t>(std::ranges::count_if(writers, [](int n) { return n > 1; }));
 }
 
@@ -75,24 +74,20 @@ TEST_P(blocks_test, lists_are_the_same_for_every_team) {
 /// Runs sum_block alone, with a reach that lets every candidate interact, and looks at what
 /// changed.
 TEST_P(blocks_test, sum_block_writes_its_own_cells_alone) {
-  using counted = count<3, double>;
-  interaction_columns<counted> columns{physics{1, {}}};
-  columns.derive(s.particles, s.index.fluid(), s.index.boundary(), team());
-  problem<counted> p = columns.view(s.particles, s.index.view());
-  p.reach2 = p.boundary_reach2 = std::numeric_limits<double>::infinity();
-  no_probe probe;
+  const counted_problem<3> counted(s.particles, s.index, s.world);
+  const problem<3, double>& p = counted.p;
   std::size_t written = 0;
   for (unsigned o = 0; o < 8; ++o)
     for (std::size_t k = 0; k < coloured[o].size(); k += 5) {
       const block<3>& b = coloured[o][k];
-      columns.zero_rates(team());
-      sum_block(p, b, probe);
+      p.pairs->zero(p.u, 0, p.fluid_count);
+      sum_block(p, b, p.to(0));
       std::vector<bool> may(s.index.fluid(), false);
       for (const std::uint32_t cell : b)
-        for (auto i = s.index.view().range[cell].fluid_begin; i < s.index.view().range[cell].fluid_end; ++i)
+        for (auto i = s.index.view().range[cell].fluid.begin; i < s.index.view().range[cell].fluid.end; ++i)
           may[i] = true;
       for (std::size_t i = 0; i < s.index.fluid(); ++i) {
-        const bool wrote = p.u.load(i).neighbours != 0;
+        const bool wrote = counted.neighbours(i) != 0;
         ASSERT_TRUE(may[i] || !wrote) << "block " << k << " of colour " << o << " wrote particle " << i;
         written += wrote;
       }

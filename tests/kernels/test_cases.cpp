@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "cases/case.hpp"
-#include "core/error.hpp"
+#include <pairsum/cases/case.hpp>
+#include <pairsum/core/error.hpp>
 #include "scene.hpp"
 
 namespace pairsum {

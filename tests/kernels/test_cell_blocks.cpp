@@ -2,9 +2,9 @@
 
 #include <set>
 
+#include <pairsum/schedule/block_cut.hpp>
+#include <pairsum/schedule/cell_blocks.hpp>
 #include "indexed_scene.hpp"
-#include "sum/block_cut.hpp"
-#include "sum/cell_blocks.hpp"
 
 // Blocks of cells: each cell once, and blocks of a colour write different particles, whatever the schedule.
 namespace pairsum {
@@ -26,15 +26,11 @@ std::vector<shaped_grid> every_shape() {
   for (const grid_choice& grid : every_grid({2, 3, 6}))
     for (const int axes : {1, 2, 3})
       for (const int width : {2, 3, 4})
-        if (grid.M == 0 || (1 << grid.M) % (2 * width) == 0)
-          for (const cell_order order : {cell_order::rows, cell_order::bundles, cell_order::morton})
-            if (order != cell_order::morton || width == 4) all.push_back({grid, {axes, width, order}});
+        if (grid.M == 0 || (1 << grid.M) % (2 * width) == 0) all.push_back({grid, {axes, width}});
   for (const grid_choice& grid : every_grid({2, 3}))  // a box of 10 cells, or 8 with an M
     for (const int axes : {1, 2, 3})
       for (const int width : {2, 3, 4, 5})
-        if (2 * width <= (grid.M > 0 ? 1 << grid.M : 10))
-          for (const cell_order order : {cell_order::rows, cell_order::bundles})
-            all.push_back({grid, {axes, width, order}, true});
+        if (2 * width <= (grid.M > 0 ? 1 << grid.M : 10)) all.push_back({grid, {axes, width}, true});
   return all;
 }
 
@@ -102,12 +98,15 @@ TEST(block_cut, goes_round_in_two_colours) {
       if (!cut.fits()) continue;
       const std::int64_t blocks = cut.block_of(period - 1) + 1;
       EXPECT_EQ(blocks % 2, 0);
-      EXPECT_EQ(cut.block_of(0), 0);
-      for (std::int64_t b = 0; b < blocks; ++b) {
-        const std::int64_t next = b + 1 < blocks ? cut.first_of(b + 1) : period;
-        EXPECT_GE(next - cut.first_of(b), width);
-        EXPECT_LT(next - cut.first_of(b), 2 * width + 1);
-        for (std::int64_t cell = cut.first_of(b); cell < next; ++cell) EXPECT_EQ(cut.block_of(cell), b);
+      std::vector<std::int64_t> cells(static_cast<std::size_t>(blocks), 0);
+      for (std::int64_t cell = 0, last = 0; cell < period; ++cell) {
+        const std::int64_t block = cut.block_of(cell);
+        ASSERT_TRUE(block == last || block == last + 1) << "in order, from 0";
+        ++cells[static_cast<std::size_t>(last = block)];
+      }
+      for (const std::int64_t n : cells) {
+        EXPECT_GE(n, width);
+        EXPECT_LT(n, 2 * width + 1);
       }
       for (std::int64_t cell = 0; cell < period && period % (2 * width) == 0; ++cell)
         EXPECT_EQ(cut.block_of(cell), cell / width);
@@ -135,39 +134,17 @@ TEST(cell_blocks, what_does_not_go_round_a_torus_is_refused_or_not_chosen) {
   EXPECT_EQ(error_of([&] { blocks.build(s.index.view()); }), "");
 }
 
-/// The places of a block's cells, in its order.
-std::vector<std::array<int, 3>> places(const cells<3>& c, const cell_blocks<3>& blocks) {
-  std::vector<std::array<int, 3>> all;
-  for (const std::uint32_t cell : blocks(0, 0))
-    all.push_back(
-        {static_cast<int>(c.place[cell][0]), static_cast<int>(c.place[cell][1]), static_cast<int>(c.place[cell][2])});
-  return all;
-}
-
-TEST(cell_blocks, cells_are_visited_in_the_order_asked_for) {
+TEST(cell_blocks, cells_are_visited_in_the_order_of_the_grid) {
   cells<3> c;
   c.fluid_cells = 64;
   c.resize_fluid();
   for (int k = 0; k < 64; ++k) c.place[static_cast<std::size_t>(k) + 1] = ivec<3>{k % 4, k / 4 % 4, k / 16};
   cell_blocks<3> blocks;
-  using at = std::array<int, 3>;
-  const auto first = [&](cell_order order) {
-    blocks.shape(block_shape{3, 4, order});
-    blocks.build(c);
-    auto p = places(c, blocks);
-    EXPECT_EQ(p.size(), 64u);
-    p.resize(9);
-    return p;
-  };
-  EXPECT_EQ(first(cell_order::rows),
-            (std::vector<at>{
-                {0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {3, 1, 0}, {0, 2, 0}}));
-  EXPECT_EQ(first(cell_order::bundles),
-            (std::vector<at>{
-                {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 1}, {2, 0, 0}}));
-  EXPECT_EQ(first(cell_order::morton),
-            (std::vector<at>{
-                {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}, {2, 0, 0}}));
+  blocks.shape(block_shape{3, 2});
+  blocks.build(c);
+  const auto second = blocks(1, 0);
+  EXPECT_EQ(std::vector<std::uint32_t>(second.begin(), second.end()),
+            (std::vector<std::uint32_t>{3, 4, 7, 8, 19, 20, 23, 24}));
 }
 
 TEST(cell_blocks, follow_cells_that_move) {
@@ -193,24 +170,6 @@ TEST(cell_blocks, follow_cells_that_move) {
   EXPECT_EQ(blocks.colours(), 1u);
 }
 
-/// The order along an axis takes no memory for the cells between.
-TEST(cell_blocks, few_cells_of_a_wide_world) {
-  cells<3> c;
-  c.fluid_cells = 3;
-  c.resize_fluid();
-  c.place[1] = ivec<3>{std::int64_t{1} << 50, 0, 0};
-  c.place[2] = ivec<3>{7, 1, 0};
-  c.place[3] = ivec<3>{7, 1, 1};
-  for (const cell_order order : {cell_order::bundles, cell_order::morton}) {
-    cell_blocks<3> blocks;
-    blocks.shape(block_shape{1, 2, order});
-    blocks.build(c);
-    ASSERT_EQ(blocks.size(0), 1u);
-    const auto visited = blocks(0, 0);
-    EXPECT_EQ(std::vector<std::uint32_t>(visited.begin(), visited.end()), (std::vector<std::uint32_t>{2, 3, 1}));
-  }
-}
-
 TEST(cell_blocks, say_what_was_made) {
   cells<1> c;
   c.fluid_cells = 1;
@@ -226,12 +185,9 @@ TEST(block_shape, is_read) {
   EXPECT_EQ(block_shape::parse("slab:2"), (block_shape{1, 2}));
   EXPECT_EQ(block_shape::parse("pencil:16"), (block_shape{2, 16}));
   EXPECT_EQ(block_shape::parse("brick:4096"), (block_shape{3, 4096}));
-  EXPECT_EQ(block_shape::parse("brick:4:morton"), (block_shape{3, 4, cell_order::morton}));
-  for (const char* word : {"slab:2", "pencil:16:bundles", "brick:3:morton"})
-    EXPECT_EQ(block_shape::parse(word).word(), word);
-  EXPECT_EQ(block_shape::parse("slab:2:rows").word(), "slab:2");
+  for (const char* word : {"slab:2", "pencil:16", "brick:3"}) EXPECT_EQ(block_shape::parse(word).word(), word);
   for (const char* wrong : {"", "slab", "slab:", "slab:1", "slab:4097", "slab:2x", "tile:2", "brick:-2", "brick: 2",
-                            "slab:2:", "slab:2:hilbert", "slab:2:rows:rows", ":2", "slab::rows"})
+                            "slab:2:", "slab:4:morton", "pencil:2:rows", "brick:4:bundles", ":2"})
     EXPECT_TRUE(says(error_of([&] { block_shape::parse(wrong); }), {"block must be auto, slab:N", wrong})) << wrong;
   EXPECT_EQ(error_of([] { check_block("auto"); }), "");
 }

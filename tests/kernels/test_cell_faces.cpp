@@ -5,9 +5,9 @@
 #include <limits>
 #include <numeric>
 
-#include "core/precision.hpp"
-#include "core/random.hpp"
-#include "grid/hashed_grid.hpp"
+#include <pairsum/core/precision.hpp>
+#include <pairsum/core/random.hpp>
+#include <pairsum/grid/hashed_grid.hpp>
 #include "scene.hpp"
 
 // Particles where a grid errs first: within a few ulps of the faces of its cells, and of faces H apart, with a partner

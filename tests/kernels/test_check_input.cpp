@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <pairsum/sum/check.hpp>
 #include "scene.hpp"
-#include "sum/check.hpp"
 
 namespace pairsum {
 namespace {
@@ -25,6 +25,24 @@ class check_input_test : public testing::Test {
 };
 
 TEST_F(check_input_test, accepts_a_case) { EXPECT_EQ(refusal(), ""); }
+
+TEST_F(check_input_test, columns_must_be_of_one_length) {
+  const std::string n = std::to_string(p.size());
+  const std::pair<const char*, std::vector<double>*> columns[] = {
+      {"x_x", &p.x[0]}, {"x_z", &p.x[2]}, {"v_y", &p.v[1]}, {"rho", &p.rho}, {"m", &p.m}};
+  for (const auto& [name, column] : columns)
+    for (const std::size_t rows : {p.size() - 1, p.size() + 1, std::size_t{0}}) {
+      const std::vector<double> keep = *column;
+      column->resize(rows, 1);
+      const std::string expected =
+          std::string("column ") + name + " of the particles has " + std::to_string(rows) + " rows, must have " + n;
+      EXPECT_EQ(refusal(), expected);
+      EXPECT_EQ(error_of([&] { registry::instance().make_summation(s.world)->load(p, {}); }), expected);
+      *column = keep;
+    }
+  p.v.pop_back();
+  EXPECT_EQ(refusal(), "v of the particles has 2 columns, must have 3");
+}
 
 TEST_F(check_input_test, names_the_particle_and_what_is_not_finite) {
   for (const double bad : {nan, inf, -inf}) {

@@ -1,12 +1,12 @@
-#include "grid/counting_sort.hpp"
+#include <pairsum/grid/counting_sort.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
-#include "core/random.hpp"
-#include "particles/reorder.hpp"
+#include <pairsum/core/random.hpp>
+#include <pairsum/particles/reorder.hpp>
 #include "scene.hpp"
 
 namespace pairsum {

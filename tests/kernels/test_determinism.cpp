@@ -13,28 +13,6 @@ class determinism_test : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(backend, determinism_test, testing::ValuesIn(backend_names()),
                          [](const auto& i) { return i.param; });
 
-/// Bit equality over thread counts, runs, and objects, for backends that claim it.
-TEST_P(determinism_test, fingerprint_is_the_same_for_every_number_of_threads) {
-  const auto& traits = registry::instance().find_backend(GetParam()).traits;
-  if (!traits.deterministic) GTEST_SKIP() << GetParam() << " does not claim to be deterministic";
-  const scene s = make_scene("dam_break", 0.045, "perturbed");
-  for (const grid_choice& grid : every_grid({2, 4, 6})) {
-    const setup world = with(s.world, GetParam(), grid);
-    const auto expected = evaluated(world, s.particles, 1)->fingerprint();
-    const auto sum = registry::instance().make_summation(world);
-    for (const int threads : {1, 2, 3, 7}) {
-      workers w(traits.threads, threads);
-      for (int run = 0; run < 3; ++run) {
-        sum->load(s.particles, {});
-        sum->evaluate(w.get());
-        ASSERT_EQ(sum->fingerprint(), expected) << grid << " threads=" << threads;
-        sum->evaluate(w.get());
-        ASSERT_EQ(sum->fingerprint(), expected) << "second evaluation of the same state";
-      }
-    }
-  }
-}
-
 /// What goes wrong by chance may go right three times.
 TEST_P(determinism_test, fingerprint_is_the_same_twenty_times) {
   const auto& traits = registry::instance().find_backend(GetParam()).traits;
@@ -72,17 +50,6 @@ TEST_P(determinism_test, fingerprint_changes_if_and_only_if_the_rates_do) {
     changes += changed;
   }
   EXPECT_GT(changes, 0);
-}
-
-/// The symmetric passes visit the same pairs in the same order, whoever runs them.
-TEST(determinism, symmetric_passes_agree_to_the_bit) {
-  const scene s = make_scene("dam_break", 0.045, "perturbed");
-  const auto expected = evaluated(with(s.world, "symmetric", 5), s.particles)->fingerprint();
-  for (const std::string name : {"symmetric_omp", "symmetric_tbb"})
-    EXPECT_EQ(evaluated(with(s.world, name, 5), s.particles, 3)->fingerprint(), expected) << name;
-  const auto gather = evaluated(with(s.world, "naive", 5), s.particles)->fingerprint();
-  for (const std::string name : {"naive_omp", "naive_tbb"})
-    EXPECT_EQ(evaluated(with(s.world, name, 5), s.particles, 3)->fingerprint(), gather) << name;
 }
 
 /// In id order, whatever the order of memory: equal rates have equal fingerprints.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "integrators/integrator.hpp"
+#include <pairsum/integrators/integrator.hpp>
 #include "scene.hpp"
 
 namespace pairsum {

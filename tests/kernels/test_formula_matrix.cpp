@@ -5,9 +5,8 @@
 
 #include "cloud.hpp"
 
-// Every backend x grid (hashed with several M, and those without) x threads x dimension x precision x interaction x
-// smoothing kernel that is built, on about 2000 particles, against an O(N^2) reference of the same precision and
-// expression.
+// Every formula that is built with every function that schedules call, scalar and on every instruction set, on about
+// 2000 particles, against an O(N^2) reference of the same precision and expression.
 namespace pairsum {
 namespace {
 
@@ -24,45 +23,27 @@ scene crowd(int dim) {
   return make_cloud(c);
 }
 
-#ifdef PAIRSUM_SANITIZED
-const std::vector<int> all_M{2, 5}, team_sizes{1, 3};
-#else
-const std::vector<int> all_M{2, 3, 5, 7}, team_sizes{1, 2, 3, 7};
-#endif
-
-class formula_matrix_test : public testing::TestWithParam<formula> {};
+class formula_matrix_test : public testing::TestWithParam<formula_choice> {};
 INSTANTIATE_TEST_SUITE_P(every, formula_matrix_test, testing::ValuesIn(formulas()),
                          [](const auto& i) { return testing::PrintToString(i.param); });
 
-TEST_P(formula_matrix_test, every_backend_agrees_for_every_grid_and_thread_count) {
-  const formula& f = GetParam();
+TEST_P(formula_matrix_test, every_function_agrees_on_every_instruction_set) {
+  const formula_choice& f = GetParam();
   const scene s = crowd(f.dim);
   const expectation e = registry::instance().make_reference(with(s.world, f))->brute_force(s.particles, some_threads());
-  for (const std::string& backend : backends_for(f))
-    for (const grid_choice& grid : every_grid(all_M)) {
-      const auto sum = registry::instance().make_summation(with(s.world, f, backend, grid));
-      const bool serial = sum->traits().threads == runtime::serial;
-      std::uint64_t bits = 0;
-      for (const int threads : team_sizes) {
-        if (serial && threads > 1) continue;
-        workers w(sum->traits().threads, threads);
-        sum->load(s.particles, {});
-        sum->evaluate(w.get());
-        ASSERT_EQ(disagreement(sum->rates(), e), "") << backend << " " << grid << " threads=" << threads;
-        if (threads == 1) bits = sum->fingerprint();
-        if (sum->traits().deterministic) {
-          ASSERT_EQ(sum->fingerprint(), bits) << backend << " " << grid << " threads=" << threads;
-        }
+  for (const std::string& backend : callers)
+    for (const std::string& isa : isas_for(f, backend))
+      for (const grid_choice& grid : every_grid({3})) {
+        setup world = with(s.world, f, backend, grid);
+        world.isa = isa;
+        ASSERT_EQ(disagreement(evaluated(world, s.particles, 2)->rates(), e), "")
+            << backend << " " << isa << " " << grid;
       }
-      const work_counts n = sum->count_work();
-      ASSERT_EQ(n.pairs_fluid_fluid, e.pairs_fluid_fluid) << backend << " " << grid;
-      ASSERT_EQ(n.pairs_fluid_boundary, e.pairs_fluid_boundary) << backend << " " << grid;
-    }
 }
 
 /// A bound that lets anything pass, or a state in which terms are zero, would prove nothing.
 TEST_P(formula_matrix_test, the_comparison_is_sharp) {
-  const formula& f = GetParam();
+  const formula_choice& f = GetParam();
   const scene s = crowd(f.dim);
   const expectation e = registry::instance().make_reference(with(s.world, f))->brute_force(s.particles, some_threads());
   EXPECT_GT(e.pairs_fluid_fluid, 10000u);
@@ -90,7 +71,7 @@ TEST(formula_matrix, covers_the_library) {
   const registry& r = registry::instance();
   std::set<std::tuple<int, std::string, std::string>> places;
   std::set<std::pair<std::string, std::string>> pairs;
-  for (const formula& f : formulas()) {
+  for (const formula_choice& f : formulas()) {
     places.emplace(f.dim, f.precision, f.interaction);
     pairs.emplace(f.interaction, f.smoothing);
   }

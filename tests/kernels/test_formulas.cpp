@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/random.hpp"
-#include "eos/tait.hpp"
-#include "interactions/ferrari09.hpp"
-#include "smoothing/wendland_c2.hpp"
+#include <pairsum/core/random.hpp>
+#include <pairsum/eos/tait.hpp>
+#include <pairsum/interactions/ferrari09.hpp>
+#include <pairsum/smoothing/wendland_c2.hpp>
 
 // The formulas against what they are defined by, written down here a second time.
 namespace pairsum {

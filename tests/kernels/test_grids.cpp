@@ -1,4 +1,4 @@
-#include "sum/grids.hpp"
+#include <pairsum/sum/grids.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "grid/hashed_grid.hpp"
+#include <pairsum/grid/hashed_grid.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/memory.hpp"
-#include "core/random.hpp"
+#include <pairsum/core/memory.hpp>
+#include <pairsum/core/random.hpp>
 #include "scene.hpp"
 
 namespace pairsum {

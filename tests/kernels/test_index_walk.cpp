@@ -3,9 +3,9 @@
 #include <numeric>
 #include <span>
 
+#include <pairsum/grid/indexer.hpp>
+#include <pairsum/sum/grids.hpp>
 #include "any_world.hpp"
-#include "grid/indexer.hpp"
-#include "sum/grids.hpp"
 
 // Particles that walk at random: after every build they lie in the order of a stable sort of everything by the standard
 // library, and cells are those of an indexer that sees them for the first time.
@@ -72,8 +72,8 @@ std::vector<std::uint32_t> sorted_ids(const particle_set<D, R>& p, const box<D, 
 template <int D>
 void expect_same_cells(const cells<D>& a, const cells<D>& b) {
   const auto same_range = [](const cell_range& r, const cell_range& s) {
-    return r.fluid_begin == s.fluid_begin && r.fluid_end == s.fluid_end && r.boundary() == s.boundary() &&
-           (r.boundary() == 0 || r.boundary_begin == s.boundary_begin);
+    return r.fluid.begin == s.fluid.begin && r.fluid.end == s.fluid.end && r.boundary.size() == s.boundary.size() &&
+           (r.boundary.size() == 0 || r.boundary.begin == s.boundary.begin);
   };
   ASSERT_EQ(a.fluid_cells, b.fluid_cells);
   EXPECT_EQ(a.total, b.total);

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "core/random.hpp"
-#include "core/tbb_arena.hpp"
+#include <pairsum/core/random.hpp>
+#include <pairsum/core/tbb_arena.hpp>
 #include "indexed_scene.hpp"
 
 namespace pairsum {
@@ -29,7 +29,7 @@ class indexer_test : public testing::TestWithParam<grid_choice> {
   }
   key key_of(std::size_t cell) const {
     const cell_range& r = c.range[cell];
-    return s.cell_of(r.fluid() > 0 ? r.fluid_begin : r.boundary_begin);
+    return s.cell_of(r.fluid.size() > 0 ? r.fluid.begin : r.boundary.begin);
   }
 };
 INSTANTIATE_TEST_SUITE_P(grid, indexer_test, testing::ValuesIn(every_grid({2, 3, 5, 7})));
@@ -53,18 +53,18 @@ TEST_P(indexer_test, fluid_before_boundary_before_lost) {
 TEST_P(indexer_test, cells_partition_the_particles_in_contiguous_ranges) {
   std::uint32_t fluid = 0;
   std::set<std::uint32_t> boundary;
-  EXPECT_EQ(c.range[0].fluid() + c.range[0].boundary(), 0u);
+  EXPECT_EQ(c.range[0].fluid.size() + c.range[0].boundary.size(), 0u);
   for (std::size_t cell = 1; cell < c.range.size(); ++cell) {
     const cell_range& r = c.range[cell];
     if (cell <= c.fluid_cells) {
-      ASSERT_EQ(r.fluid_begin, fluid) << "cell " << cell;
-      ASSERT_GT(r.fluid(), 0u);
-      fluid = r.fluid_end;
+      ASSERT_EQ(r.fluid.begin, fluid) << "cell " << cell;
+      ASSERT_GT(r.fluid.size(), 0u);
+      fluid = r.fluid.end;
     } else {
-      ASSERT_EQ(r.fluid(), 0u);
-      ASSERT_GT(r.boundary(), 0u);
+      ASSERT_EQ(r.fluid.size(), 0u);
+      ASSERT_GT(r.boundary.size(), 0u);
     }
-    for (auto i = r.boundary_begin; i < r.boundary_end; ++i) ASSERT_TRUE(boundary.insert(i).second);
+    for (auto i = r.boundary.begin; i < r.boundary.end; ++i) ASSERT_TRUE(boundary.insert(i).second);
   }
   EXPECT_EQ(fluid, s.index.fluid());
   ASSERT_EQ(boundary.size(), s.index.boundary());
@@ -82,8 +82,8 @@ TEST_P(indexer_test, every_particle_is_in_the_cell_of_its_position) {
     const key k = key_of(cell);
     ASSERT_TRUE(keys.insert(k).second) << "two cells with one key";
     const cell_range& r = c.range[cell];
-    for (auto i = r.fluid_begin; i < r.fluid_end; ++i) ASSERT_EQ(s.cell_of(i), k);
-    for (auto i = r.boundary_begin; i < r.boundary_end; ++i) ASSERT_EQ(s.cell_of(i), k);
+    for (auto i = r.fluid.begin; i < r.fluid.end; ++i) ASSERT_EQ(s.cell_of(i), k);
+    for (auto i = r.boundary.begin; i < r.boundary.end; ++i) ASSERT_EQ(s.cell_of(i), k);
   }
 }
 
@@ -108,8 +108,8 @@ std::map<key, std::set<std::uint32_t>> contents(const indexed_scene& s) {
   const cells<3>& c = s.index.view();
   for (std::size_t cell = 1; cell < c.range.size(); ++cell) {
     const cell_range& r = c.range[cell];
-    for (auto i = r.fluid_begin; i < r.fluid_end; ++i) found[s.cell_of(i)].insert(s.particles.id[i]);
-    for (auto i = r.boundary_begin; i < r.boundary_end; ++i) found[s.cell_of(i)].insert(s.particles.id[i]);
+    for (auto i = r.fluid.begin; i < r.fluid.end; ++i) found[s.cell_of(i)].insert(s.particles.id[i]);
+    for (auto i = r.boundary.begin; i < r.boundary.end; ++i) found[s.cell_of(i)].insert(s.particles.id[i]);
   }
   return found;
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "integrators/with_state.hpp"
+#include <pairsum/integrators/with_state.hpp>
 #include "oscillator_scene.hpp"
 
 // The measured order of convergence of every integrator, on a problem whose particles change places in memory between

@@ -1,10 +1,10 @@
-#include "sum/layers.hpp"
+#include <pairsum/schedule/layers.hpp>
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "core/random.hpp"
+#include <pairsum/core/random.hpp>
 #include "torus.hpp"
 
 // Layers of cells: runs of cells along the slowest axis, and where a half stencil goes from them.

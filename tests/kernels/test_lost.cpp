@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "integrators/integrator.hpp"
-#include "integrators/with_state.hpp"
+#include <pairsum/integrators/integrator.hpp>
+#include <pairsum/integrators/with_state.hpp>
 #include "scene.hpp"
 
 // Particles that leave Omega, or become NaN, during stepping: flagged, counted, no longer summed.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.hpp"
+#include <pairsum/core/random.hpp>
 #include "scene.hpp"
 
 // What precision mixed promises beyond its bound, which the tests of all formulas check: digits far from the origin,
@@ -101,16 +101,22 @@ TEST_P(mixed_test, momentum_is_kept_in_double) {
   }
 }
 
-TEST(mixed, is_refused_where_pairs_are_not_packed) {
+TEST(mixed, is_refused_without_vector_units) {
+  if (std::ranges::count(registry::instance().precisions(), "mixed") == 0) GTEST_SKIP() << "mixed is not built";
   setup s = make_scene("dam_break", 0.06, "rest").world;
   s.precision = "mixed";
-  const auto refusal = [&](const std::string& backend, const std::string& interaction) {
+  const auto refusal = [&](const std::string& backend, const std::string& interaction, const char* isa) {
+    s.isa = isa;
     return error_of([&] { (void)registry::instance().make_summation(with(s, backend, 4, interaction)); });
   };
-  if (std::ranges::count(registry::instance().precisions(), "mixed") == 0) GTEST_SKIP() << "mixed is not built";
-  EXPECT_EQ(refusal("tiles_omp", "ferrari09"), "");
-  EXPECT_TRUE(says(refusal("naive", "ferrari09"), {"mixed was not built", "built: ", "ferrari09"}));
-  EXPECT_TRUE(says(refusal("tiles_omp", "count"), {"mixed was not built", "built: ", "ferrari09"}));
+  for (const std::string& backend : backend_names()) {
+    EXPECT_EQ(refusal(backend, "ferrari09", "default").empty(), backend != "atomic_add") << backend;
+    EXPECT_NE(refusal(backend, "ferrari09", "scalar"), "") << backend;
+  }
+  EXPECT_TRUE(
+      says(refusal("naive", "ferrari09", "scalar"), {"precision mixed needs vector units", "other than scalar"}));
+  EXPECT_TRUE(says(refusal("atomic_add", "ferrari09", "default"), {"atomic_add", "cannot add atomically"}));
+  EXPECT_TRUE(says(refusal("tiles_omp", "count", "best"), {"mixed was not built", "built: ", "ferrari09"}));
 }
 
 }  // namespace

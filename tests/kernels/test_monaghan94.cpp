@@ -1,4 +1,4 @@
-#include "interactions/monaghan94.hpp"
+#include <pairsum/interactions/monaghan94.hpp>
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/random.hpp"
-#include "smoothing/wendland_c2.hpp"
+#include <pairsum/core/random.hpp>
+#include <pairsum/smoothing/wendland_c2.hpp>
 
 // Monaghan's formula against its documentation, written down here a second time.
 namespace pairsum {

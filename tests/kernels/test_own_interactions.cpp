@@ -2,12 +2,8 @@
 
 #include <cmath>
 
-#include "integrators/integrator.hpp"
+#include <pairsum/pairsum.hpp>
 #include "scene.hpp"
-#include "smoothing/wendland_c2.hpp"
-#include "sum/agreement.hpp"
-#include "sum/all_backends.hpp"
-#include "sum/setup_of.hpp"
 
 // Interactions as a user writes them: a single scalar, a single vector, nothing but places.
 namespace pairsum {
@@ -88,11 +84,19 @@ struct odd_order {
 };
 
 template <class I>
+registry with_own() {
+  registry all = registry::instance();
+  all.add(formula_entry_of<I>());
+  return all;
+}
+
+/// By backend and instruction set: `best` is the one that this source is compiled for, if it has vector units.
+template <class I>
 std::map<std::string, double> shares_of_bound(double dx) {
   const initial_condition c = make_case("lattice", {.dim = I::dim, .dx = dx, .H = 2.5 * dx, .state = "perturbed"});
-  registry own;
-  enrol_everywhere<I>(own, all_backends{});
+  const registry own = with_own<I>();
   setup s = setup_of(c);
+  s.dim = I::dim;
   s.interaction = I::name;
   s.precision = precision_name<typename I::real>();
   const expectation e = own.make_reference(s)->brute_force(c.particles, some_threads());
@@ -101,42 +105,47 @@ std::map<std::string, double> shares_of_bound(double dx) {
   for (const backend_entry& b : own.backends()) {
     s.backend = b.traits.name;
     s.M = 4;
-    const auto sum = own.make_summation(s);
-    workers w(b.traits.threads, 3);
-    sum->load(c.particles, {});
-    sum->evaluate(w.get());
-    EXPECT_EQ(sum->count_work().pairs_fluid_fluid, e.pairs_fluid_fluid) << s.backend;
-    shares[s.backend] = share_of_bound(sum->rates(), e);
+    for (const char* isa : {"scalar", "best"}) {
+      if (b.traits.conflicts == conflict_avoidance::atomics && isa == best_isa) continue;
+      s.isa = isa;
+      const auto sum = own.make_summation(s);
+      workers w(b.traits.threads, 3);
+      sum->load(c.particles, {});
+      sum->evaluate(w.get());
+      EXPECT_EQ(sum->count_work().pairs_fluid_fluid, e.pairs_fluid_fluid) << s.backend;
+      shares[s.backend + " " + isa] = share_of_bound(sum->rates(), e);
+    }
   }
   return shares;
 }
 
 TEST(own_interactions, a_single_scalar_is_summed_by_every_backend) {
   const auto shares = shares_of_bound<density>(0.1);
-  EXPECT_EQ(shares.size(), backend_names().size());
+  EXPECT_EQ(shares.size(), 2 * backend_names().size() - 1) << "atomic_add is scalar alone";
   for (const auto& [backend, share] : shares) EXPECT_LE(share, 1) << backend;
   EXPECT_EQ(rate_names<density>(), std::vector<std::string>{"rho"});
 }
 
 TEST(own_interactions, a_single_vector_is_summed_by_every_backend) {
   const auto shares = shares_of_bound<lennard_jones<0>>(0.03);
-  EXPECT_EQ(shares.size(), backend_names().size());
+  EXPECT_EQ(shares.size(), 2 * backend_names().size() - 1) << "atomic_add is scalar alone";
   for (const auto& [backend, share] : shares) EXPECT_LE(share, 1) << backend;
   EXPECT_EQ(rate_names<lennard_jones<0>>(), (std::vector<std::string>{"force_x", "force_y"}));
 }
 
-TEST(own_interactions, two_in_one_registry_list_each_backend_once) {
-  registry own;
-  enrol_everywhere<density>(own, all_backends{});
-  enrol_everywhere<odd_order>(own, backend_list<naive, symmetric>{});
+TEST(own_interactions, join_those_of_the_library) {
+  registry own = with_own<density>();
+  own.add(formula_entry_of<odd_order>());
   EXPECT_EQ(own.backends().size(), backend_names().size());
-  EXPECT_EQ(own.interactions(), (std::vector<std::string>{"density", "odd_order"}));
+  std::vector<std::string> all = registry::instance().interactions();
+  all.insert(all.end(), {"density", "odd_order"});
+  EXPECT_EQ(own.interactions(), all);
+  EXPECT_EQ(error_of([&] { own.add(formula_entry_of<density>()); }), "there is a formula density/3D/double already");
 }
 
 TEST(own_interactions, time_steps_find_drho_and_dv_by_name) {
   const initial_condition c = make_case("lattice", {.dim = 2, .dx = 0.1});
-  registry own;
-  enrol_everywhere<odd_order>(own, backend_list<symmetric>{});
+  const registry own = with_own<odd_order>();
   setup s = setup_of(c);
   s.interaction = odd_order::name;
   s.M = 4;

@@ -5,8 +5,8 @@
 #include <set>
 #include <vector>
 
-#include "pattern/pattern.hpp"
-#include "sum/block.hpp"
+#include <pairsum/pattern/pattern.hpp>
+#include <pairsum/schedule/block.hpp>
 
 // The talk's pattern on a torus of even side, for any schedule: each pair of neighbouring cells
 // belongs to one base block, and the blocks of one pass (bases of equal parity) share no cell.

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "integrators/integrator.hpp"
-#include "integrators/with_state.hpp"
+#include <pairsum/integrators/integrator.hpp>
+#include <pairsum/integrators/with_state.hpp>
 #include "periodic_box.hpp"
 
 // What a periodic box is: pairs through its faces, no place that is special, nothing that gets lost.

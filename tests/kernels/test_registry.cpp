@@ -47,7 +47,6 @@ TEST(registry, a_wrong_word_for_how_threads_are_kept_apart_is_found) {
   t.conflicts = conflict_avoidance::colours;
   EXPECT_NE(fault_of_conflicts(t), "");
   EXPECT_EQ(name_of(conflict_avoidance::tasks), "tasks");
-  EXPECT_EQ(name_of(backend_traits{}.conflicts), "unsaid") << "an own backend need not say it";
 }
 
 TEST(registry, makes_every_combination_it_lists) {
@@ -89,17 +88,7 @@ TEST(registry, unknown_words_are_errors_that_list_the_valid_ones) {
 
 TEST(registry, an_unavailable_backend_is_listed_and_says_what_it_needs) {
   registry r;
-  r.enrol_backend({.name = "cuda",
-                   .description = "",
-                   .aliases = "",
-                   .threads = runtime::serial,
-                   .symmetric = false,
-                   .deterministic = false,
-                   .accumulates = false,
-                   .evaluations_per_pair = 2,
-                   .sweeps_per_colour = false,
-                   .keeps_pairs = false},
-                  "needs CUDA");
+  r.add(backend_entry{{.name = "cuda"}, nullptr, "needs CUDA"});
   EXPECT_EQ(r.backends().size(), 1u);
   EXPECT_TRUE(says(error_of([&] { (void)r.find_backend("cuda"); }), {"cuda", "unavailable", "needs CUDA"}));
 }

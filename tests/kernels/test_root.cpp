@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "vector/vector_kernels.hpp"
+#include <pairsum/vector/compiled_lanes.hpp>
 
 // Roots lane by lane, by the instruction set this is compiled for.
 #if PAIRSUM_LANES

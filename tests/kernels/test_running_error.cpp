@@ -1,11 +1,11 @@
-#include "sum/running_error.hpp"
+#include <pairsum/reference/running_error.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "core/random.hpp"
+#include <pairsum/core/random.hpp>
 
 // Random expressions in float with their bounds against the same expressions in long double, whose
 // own error (2^-64) is nothing beside a float's (2^-24).

@@ -1,4 +1,4 @@
-#include "sum/slab_colours.hpp"
+#include <pairsum/schedule/slab_colours.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "sum/slabs.hpp"
+#include <pairsum/schedule/slabs.hpp>
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "core/random.hpp"
+#include <pairsum/core/random.hpp>
 #include "layers_at.hpp"
 
 // Slabs of layers, one for each thread: who writes to a layer that another slab writes to holds a lock for it.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "smoothing/cubic_spline.hpp"
-#include "smoothing/gaussian.hpp"
-#include "smoothing/wendland_c2.hpp"
-#include "smoothing/wendland_c4.hpp"
-#include "smoothing/wendland_c6.hpp"
+#include <pairsum/smoothing/cubic_spline.hpp>
+#include <pairsum/smoothing/gaussian.hpp>
+#include <pairsum/smoothing/wendland_c2.hpp>
+#include <pairsum/smoothing/wendland_c4.hpp>
+#include <pairsum/smoothing/wendland_c6.hpp>
 #include "smoothing_literature.hpp"
 
 // Every smoothing kernel in every dimension and precision against what defines it.

@@ -3,9 +3,9 @@
 #include <atomic>
 #include <mutex>
 
-#include "core/random.hpp"
-#include "core/tbb_arena.hpp"
-#include "core/tbb_graph.hpp"
+#include <pairsum/core/random.hpp>
+#include <pairsum/core/tbb_arena.hpp>
+#include <pairsum/core/tbb_graph.hpp>
 #include "scene.hpp"
 
 // Tasks in an order: in the caller's arena, again and again, and after an exception.

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "grid/indexer.hpp"
+#include <pairsum/grid/indexer.hpp>
 #include "periodic_box.hpp"
 
 // The cells of periodic boxes: where they are, and who is whose neighbour.
@@ -83,7 +83,7 @@ TEST_P(torus_grids_test, close_on_themselves) {
     std::map<ivec<3>, std::size_t> boundary;  // particles
     std::size_t fluid = 0;
     for (std::size_t cell = 1; cell <= c.fluid_cells; ++cell)
-      for (auto i = c.range[cell].fluid_begin; i < c.range[cell].fluid_end; ++i, ++fluid)
+      for (auto i = c.range[cell].fluid.begin; i < c.range[cell].fluid.end; ++i, ++fluid)
         ASSERT_EQ(cell_of(i), c.place[cell]);
     EXPECT_EQ(fluid, n - n / 5);
     for (std::size_t i = fluid; i < n; ++i) ++boundary[cell_of(i)];
@@ -105,7 +105,7 @@ TEST_P(torus_grids_test, close_on_themselves) {
           ASSERT_TRUE(other == 0 || other > c.fluid_cells);
         }
         const auto walls = boundary.find(to);
-        ASSERT_EQ(c.range[other].boundary(), walls == boundary.end() ? 0 : walls->second);
+        ASSERT_EQ(c.range[other].boundary.size(), walls == boundary.end() ? 0 : walls->second);
       }
     EXPECT_GT(through, 100u);
   }

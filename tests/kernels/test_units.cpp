@@ -2,16 +2,10 @@
 
 #include <set>
 
-#include "backends/colour18.hpp"
-#include "backends/colour4.hpp"
-#include "backends/half_cells.hpp"
-#include "backends/pair_list_omp.hpp"
-#include "backends/sliced_2colour.hpp"
-#include "backends/symmetric_omp.hpp"
-#include "backends/task_conflicts.hpp"
+#include <pairsum/schedule/block_conflicts.hpp>
+#include <pairsum/sum/grids.hpp>
+#include <pairsum/sum/setup_of.hpp>
 #include "scene.hpp"
-#include "sum/grids.hpp"
-#include "sum/setup_of.hpp"
 #include "unit_trace.hpp"
 
 // Is a colour free of conflicts on every grid, the seams of a torus that three colours do not go round among them?
@@ -49,15 +43,16 @@ std::vector<world> worlds() {
           {"periodic_lattice", 1.0 / 30, D == 3 ? std::vector<grid_choice>{} : grids_without_M()}};
 }
 
-template <class B, int D>
-void units_of_a_pass_write_different_particles() {
+template <int D>
+void units_of_a_pass_write_different_particles(const std::string& backend) {
+  const backend_entry& b = registry::instance().find_backend(backend);
   std::size_t conflicts_of_all = 0;
   for (const world& w : worlds<D>())
     for (const grid_choice& grid : w.grids) {
       const initial_condition start = make_case(w.name, {.dim = D, .dx = w.dx, .state = "perturbed"});
-      const scene s{start.particles, with(setup_of(start), B::traits.name, grid)};
+      const scene s{start.particles, with(setup_of(start), backend, grid)};
       const indexed<D> i(s, s.world);
-      const auto passes = units_of<B, D>(i.particles, i.index, s.world);
+      const auto passes = units_of<D>(b, i.particles, i.index, s.world);
       written_by_unit together;
       for (const auto& [pass, units] : passes) {
         EXPECT_EQ(conflicts_in(units, i.index.fluid()), 0u)
@@ -69,21 +64,16 @@ void units_of_a_pass_write_different_particles() {
   EXPECT_GT(conflicts_of_all, 0u) << "passes at the same time would not do: what is said above can fail";
 }
 
-template <class B>
-class units_test : public testing::Test {};
-using coloured = testing::Types<symmetric_omp, colour18, colour4, half_cells, pair_list_omp, sliced_2colour>;
-struct backend_name {
-  template <class B>
-  static std::string GetName(int) {
-    return std::string(B::traits.name);
-  }
-};
-TYPED_TEST_SUITE(units_test, coloured, backend_name);
+class units_test : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(backend, units_test,
+                         testing::Values("symmetric_omp", "colour18", "colour4", "half_cells", "pair_list_omp",
+                                         "verlet_list", "tiles_omp", "sliced_2colour"),
+                         [](const auto& i) { return i.param; });
 
-TYPED_TEST(units_test, of_a_pass_write_different_particles) {
-  units_of_a_pass_write_different_particles<TypeParam, 1>();
-  units_of_a_pass_write_different_particles<TypeParam, 2>();
-  units_of_a_pass_write_different_particles<TypeParam, 3>();
+TEST_P(units_test, of_a_pass_write_different_particles) {
+  units_of_a_pass_write_different_particles<1>(GetParam());
+  units_of_a_pass_write_different_particles<2>(GetParam());
+  units_of_a_pass_write_different_particles<3>(GetParam());
 }
 
 /// Of two tasks that write to one particle one waits for the other; and of those that need not, many do not.
@@ -97,13 +87,17 @@ void tasks_that_write_to_one_particle_conflict() {
         scene s{start.particles, with(setup_of(start), "task_conflicts", grid)};
         s.world.block = block;
         const indexed<D> i(s, s.world);
-        trace_units<task_conflicts, D>(
-            i.particles, i.index, s.world, [&](const auto& p, const auto& workspace, const auto& trace) {
-              const auto edges = conflicts_of(p.cells(), workspace.blocks);
+        trace_units<D>(
+            registry::instance().find_backend("task_conflicts"), i.particles, i.index, s.world,
+            [&](const auto& p, const auto& tasks, const auto& trace) {
+              cell_blocks<D> blocks;
+              blocks.shape(block_shape::parse(tasks.block()), true);
+              blocks.build(p.cells());
+              const auto edges = conflicts_of(p.cells(), blocks);
               const std::set<block_pair> waits(edges.begin(), edges.end());
               std::vector<std::vector<std::size_t>> writers(p.fluid_count);
               const auto& units = trace.passes.at(0);
-              ASSERT_EQ(units.size(), workspace.blocks.size(0)) << "every task runs once";
+              ASSERT_EQ(units.size(), blocks.size(0)) << "every task runs once";
               for (std::size_t u = 0; u < units.size(); ++u)
                 for (const std::uint32_t particle : units[u]) writers[particle].push_back(trace.numbers[u]);
               for (const auto& those : writers)
@@ -128,18 +122,19 @@ TEST(units_of_tasks, that_write_to_one_particle_wait_for_each_other) {
 }
 
 /// Without a seam there are the colours that give a backend its name.
-TYPED_TEST(units_test, have_the_colours_of_their_pattern) {
-  if (!TypeParam::traits.sweeps_per_colour) GTEST_SKIP() << "blocks have colours of their own";
-  const auto colours_in = [](auto dim) {
+TEST_P(units_test, have_the_colours_of_their_pattern) {
+  const backend_entry& b = registry::instance().find_backend(GetParam());
+  if (!b.traits.sweeps_per_colour) GTEST_SKIP() << "blocks have colours of their own";
+  const auto colours_in = [&](auto dim) {
     constexpr int D = decltype(dim)::value;
     const initial_condition start = make_case("random_uniform", {.dim = D, .dx = D == 3 ? 0.04 : 0.01});
-    const scene s{start.particles, with(setup_of(start), TypeParam::traits.name, grid_choice("dense_grid", 0))};
+    const scene s{start.particles, with(setup_of(start), GetParam(), grid_choice("dense_grid", 0))};
     const indexed<D> i(s, s.world);
-    return static_cast<int>(units_of<TypeParam, D>(i.particles, i.index, s.world).size());
+    return static_cast<int>(units_of<D>(b, i.particles, i.index, s.world).size());
   };
-  EXPECT_EQ(colours_in(std::integral_constant<int, 1>()), TypeParam::traits.colours[0]);
-  EXPECT_EQ(colours_in(std::integral_constant<int, 2>()), TypeParam::traits.colours[1]);
-  EXPECT_EQ(colours_in(std::integral_constant<int, 3>()), TypeParam::traits.colours[2]);
+  EXPECT_EQ(colours_in(std::integral_constant<int, 1>()), b.traits.colours[0]);
+  EXPECT_EQ(colours_in(std::integral_constant<int, 2>()), b.traits.colours[1]);
+  EXPECT_EQ(colours_in(std::integral_constant<int, 3>()), b.traits.colours[2]);
 }
 
 }  // namespace

@@ -1,24 +1,37 @@
 #include <gtest/gtest.h>
 
-#include "backends/verlet_list.hpp"
-#include "integrators/integrator.hpp"
-#include "interactions/count.hpp"
+#include <pairsum/integrators/integrator.hpp>
+#include <pairsum/schedule/kept_lists.hpp>
+#include <pairsum/sum/setup_of.hpp>
+#include <pairsum/sum/summation_in.hpp>
 #include "periodic_box.hpp"
 #include "scene.hpp"
-#include "sum/setup_of.hpp"
-#include "sum/summation_of.hpp"
 
 // The list that is kept against a fresh search, while a dam breaks.
 namespace pairsum {
 namespace {
 
 using namespace test_kit;
-using counted = count<3, double>;
-using counting_list = summation_of<verlet_list, counted>;
+
+/// Backend verlet_list, and how often it made its list.
+template <int D, class R>
+class kept {
+ public:
+  explicit kept(const setup& s) : sum_(registry::instance().make_summation(s)) {}
+  state<D, R>* operator->() { return &dynamic_cast<state<D, R>&>(*sum_); }
+  std::size_t lists_made() const {
+    return dynamic_cast<const kept_lists<D, R>&>(dynamic_cast<const summation_in<D, R>&>(*sum_).inner()).lists_made();
+  }
+
+ private:
+  std::unique_ptr<summation> sum_;
+};
+using counting_list = kept<3, double>;
+constexpr double skin_in_H = kept_lists<3, double>::traits.skin;
 
 /// Takes the positions of a table, by id, without saying so: as if an integrator had moved the particles.
 void move_to(counting_list& list, const particle_table& p) {
-  auto& set = list.particles();
+  auto& set = list->particles();
   for (std::size_t i = 0; i < set.size(); ++i)
     for (int d = 0; d < 3; ++d) set.x[d][i] = p.x[static_cast<std::size_t>(d)][set.id[i]];
 }
@@ -30,23 +43,23 @@ TEST(verlet_list, names_the_pairs_of_a_fresh_search_at_every_step) {
   dam->load(start.particles, {});
   const team t;
   counting_list list(with(world, "verlet_list", 5, "count"));
-  list.load(start.particles, {});
+  list->load(start.particles, {});
   const double sound = start.eos.sound_speed0();
   const double dt = 0.04 * start.H / sound;  // s
   std::size_t reused = 0;
   for (int step = 0; step < 200; ++step) {
     const auto now = dam->snapshot();
     move_to(list, now);
-    const std::size_t before = list.inner().lists_made();
-    list.evaluate(t);
-    reused += list.inner().lists_made() == before;
+    const std::size_t before = list.lists_made();
+    list->evaluate(t);
+    reused += list.lists_made() == before;
     const auto fresh = evaluated(with(world, "naive", 5, "count"), now);
-    ASSERT_EQ(list.rates().columns, fresh->rates().columns) << "step " << step;
+    ASSERT_EQ(list->rates().columns, fresh->rates().columns) << "step " << step;
     ASSERT_EQ(dam->lost(), 0u);
     find_integrator("euler").step(
         *dam, dt, start.gravity, [&] { dam->evaluate(t); }, t);
   }
-  EXPECT_GE(list.inner().lists_made(), 4u) << "made, and made again three times";
+  EXPECT_GE(list.lists_made(), 4u) << "made, and made again three times";
   EXPECT_GE(reused, 100u) << "a list that is never kept proves nothing";
 }
 
@@ -54,19 +67,19 @@ class kept_list : public testing::Test {
  protected:
   scene s = make_scene("dam_break", 0.06, "perturbed");
   counting_list list{with(s.world, "verlet_list", 4, "count")};
-  const double skin = verlet_list::traits.skin * s.world.constants.H;
+  const double skin = skin_in_H * s.world.constants.H;
 
   void SetUp() override {
-    list.load(s.particles, {});
-    list.evaluate(team());
+    list->load(s.particles, {});
+    list->evaluate(team());
   }
   std::size_t made_after(auto&& change) {
     change();
-    list.evaluate(team());
-    return list.inner().lists_made();
+    list->evaluate(team());
+    return list.lists_made();
   }
   /// Moves fluid particle 5 of the set by so much along x.
-  void push(double by) { list.particles().x[0][5] += by; }
+  void push(double by) { list->particles().x[0][5] += by; }
 };
 
 TEST_F(kept_list, serves_until_a_particle_has_moved_half_the_skin) {
@@ -78,12 +91,12 @@ TEST_F(kept_list, serves_until_a_particle_has_moved_half_the_skin) {
 }
 
 TEST_F(kept_list, ends_with_what_it_was_made_of) {
-  EXPECT_EQ(made_after([&] { list.forget_index(); }), 2u) << "particles were sorted by somebody else";
-  EXPECT_EQ(made_after([&] { list.load(s.particles, {}); }), 3u) << "other particles";
-  EXPECT_EQ(made_after([&] { list.particles().x[0][5] = std::numeric_limits<double>::quiet_NaN(); }), 4u);
-  EXPECT_EQ(list.lost(), 1u) << "a position that is no number is found while a list serves";
-  EXPECT_EQ(made_after([&] { list.particles().x[0][5] = s.world.omega_high[0] + skin / 100; }), 5u);
-  EXPECT_EQ(list.lost(), 2u) << "who leaves Omega is found while a list serves";
+  EXPECT_EQ(made_after([&] { list->forget_index(); }), 2u) << "particles were sorted by somebody else";
+  EXPECT_EQ(made_after([&] { list->load(s.particles, {}); }), 3u) << "other particles";
+  EXPECT_EQ(made_after([&] { list->particles().x[0][5] = std::numeric_limits<double>::quiet_NaN(); }), 4u);
+  EXPECT_EQ(list->lost(), 1u) << "a position that is no number is found while a list serves";
+  EXPECT_EQ(made_after([&] { list->particles().x[0][5] = s.world.omega_high[0] + skin / 100; }), 5u);
+  EXPECT_EQ(list->lost(), 2u) << "who leaves Omega is found while a list serves";
 }
 
 /// A pair that comes into reach while the list serves was in its skin.
@@ -96,15 +109,15 @@ TEST_F(kept_list, has_pairs_that_come_into_reach) {
   const double H = s.world.constants.H;
   for (int d = 0; d < 3; ++d) two.x[static_cast<std::size_t>(d)].assign(2, 0.3);
   two.x[0][1] += H + 0.9 * skin;
-  list.load(two, {});
-  list.evaluate(team());
-  EXPECT_EQ(list.rates().columns[0][0], 0.0);
-  const std::size_t made = list.inner().lists_made();
-  list.particles().x[0][0] += 0.48 * skin;
-  list.particles().x[0][1] -= 0.48 * skin;
-  list.evaluate(team());
-  EXPECT_EQ(list.inner().lists_made(), made);
-  EXPECT_EQ(list.rates().columns[0][0], 1.0);
+  list->load(two, {});
+  list->evaluate(team());
+  EXPECT_EQ(list->rates().columns[0][0], 0.0);
+  const std::size_t made = list.lists_made();
+  list->particles().x[0][0] += 0.48 * skin;
+  list->particles().x[0][1] -= 0.48 * skin;
+  list->evaluate(team());
+  EXPECT_EQ(list.lists_made(), made);
+  EXPECT_EQ(list->rates().columns[0][0], 1.0);
 }
 
 /// Random particles in a periodic box of 5.3 H, of which many pairs lie apart by more than H through a face.
@@ -137,7 +150,7 @@ class periodic_list : public testing::Test {
 };
 
 TEST_F(periodic_list, its_tests_are_the_pairs_in_reach_of_the_skin) {
-  const double H = s.world.constants.H, far = H * (1 + verlet_list::traits.skin);
+  const double H = s.world.constants.H, far = H * (1 + skin_in_H);
   const work_counts n =
       evaluated(with(s.world, "verlet_list", grid_choice("compact_grid", 0), "count"), s.particles)->count_work();
   EXPECT_EQ(n.pairs_tested, pairs_within(far));
@@ -149,51 +162,50 @@ TEST_F(periodic_list, its_tests_are_the_pairs_in_reach_of_the_skin) {
 TEST_F(periodic_list, serves_while_particles_go_through_the_faces) {
   const setup world = with(s.world, "verlet_list", grid_choice("compact_grid", 0), "count");
   counting_list list(world);
-  list.load(s.particles, {});
-  const double step = 0.2 * verlet_list::traits.skin * world.constants.H;  // two fit into half the skin
+  list->load(s.particles, {});
+  const double step = 0.2 * skin_in_H * world.constants.H;  // two fit into half the skin
   const int steps = 40;
   for (int k = 0; k < steps; ++k) {
-    auto& set = list.particles();
+    auto& set = list->particles();
     for (std::size_t i = 0; i < set.size(); ++i) {
       const double by = set.id[i] % 2 == 0 ? step : -step;
       set.x[0][i] += by;
       s.particles.x[0][set.id[i]] += by;
     }
-    list.evaluate(team());
+    list->evaluate(team());
     particle_table now = s.particles;  // in the box
     for (double& x : now.x[0]) {
       const double edge = world.omega_high[0] - world.omega_low[0];
       x = world.omega_low[0] + std::fmod(std::fmod(x - world.omega_low[0], edge) + edge, edge);
     }
     const auto fresh = evaluated(with(world, "naive", grid_choice("compact_grid", 0), "count"), now);
-    ASSERT_EQ(list.rates().columns, fresh->rates().columns) << "step " << k;
-    ASSERT_EQ(list.lost(), 0u);
+    ASSERT_EQ(list->rates().columns, fresh->rates().columns) << "step " << k;
+    ASSERT_EQ(list->lost(), 0u);
   }
-  EXPECT_LT(list.inner().lists_made(), static_cast<std::size_t>(steps) / 2 + 5);
-  EXPECT_GT(list.inner().lists_made(), 5u);
+  EXPECT_LT(list.lists_made(), static_cast<std::size_t>(steps) / 2 + 5);
+  EXPECT_GT(list.lists_made(), 5u);
 }
 
 /// A box so wide that floats beside its faces are coarse against the skin: no list may be trusted.
 TEST(verlet_list_in_float, is_made_anew_where_rounding_is_as_wide_as_the_skin) {
-  using coarse = count<2, float>;
   scene s = placed(2, {40000, 40000, 0}, 1, 2, [](std::size_t i) {
     return std::array<double, 3>{i == 0 ? 0.5 : 39999.5, 7, 0};
   });
   setup world = with(s.world, "verlet_list", grid_choice("compact_grid", 0), "count");
   world.precision = "float";
-  summation_of<verlet_list, coarse> list(world);
-  list.load(s.particles, {});
-  list.evaluate(team());
-  list.evaluate(team());
-  EXPECT_EQ(list.inner().lists_made(), 1u) << "wide, but resolved";
+  kept<2, float> list(world);
+  list->load(s.particles, {});
+  list->evaluate(team());
+  list->evaluate(team());
+  EXPECT_EQ(list.lists_made(), 1u) << "wide, but resolved";
   s.world.omega_high = {4e6, 4e6};
   s.particles.x[0][1] = 4e6 - 0.5;
   world.omega_high = s.world.omega_high;
-  summation_of<verlet_list, coarse> wide(world);
-  wide.load(s.particles, {});
-  wide.evaluate(team());
-  wide.evaluate(team());
-  EXPECT_EQ(wide.inner().lists_made(), 2u);
+  kept<2, float> wide(world);
+  wide->load(s.particles, {});
+  wide->evaluate(team());
+  wide->evaluate(team());
+  EXPECT_EQ(wide.lists_made(), 2u);
 }
 
 TEST(verlet_list, that_does_not_fit_into_a_periodic_box_says_that_it_needs_room_for_its_skin) {

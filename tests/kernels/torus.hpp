@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "grid/cells.hpp"
+#include <pairsum/grid/cells.hpp>
 
 namespace pairsum::test_kit {
 

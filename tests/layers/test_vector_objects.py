@@ -12,15 +12,19 @@ import pytest
 BUILD = pathlib.Path(os.environ["PAIRSUM_BUILD"])
 SETS = {"avx512": "hwy::N_AVX3", "avx2": "hwy::N_AVX2", "sse4": "hwy::N_S", "neon": "hwy::N_NEON"}
 WEAK = re.compile(r"^[0-9a-f]* +([WVu]) (.*)$", re.M)
+NEVER_CALLED = "pairsum::compile_types<"  # it lets the compiler instantiate the sums
 
 
-def shared(symbols, name):
+def shared(symbols, isa):
     """The weak symbols that do not name the set."""
-    return [symbol for _, symbol in WEAK.findall(symbols) if name not in symbol]
+    names = (SETS[isa], f"pairsum::isas::{isa} ", NEVER_CALLED)
+    return [symbol for _, symbol in WEAK.findall(symbols) if not any(name in symbol for name in names)]
 
 
 def objects(isa):
-    return sorted((BUILD / "kernels/CMakeFiles" / f"pairsum_{isa}.dir").rglob("*.o"))
+    """Those of the formulas, and of the lister."""
+    folders = [*(BUILD / "kernels/CMakeFiles").glob(f"pairsum_{isa}_*.dir"), BUILD / "kernels/CMakeFiles" / f"pairsum_lister_{isa}.dir"]
+    return sorted(file for folder in folders for file in folder.rglob("*.o"))
 
 
 @pytest.mark.parametrize("isa", SETS)
@@ -30,12 +34,12 @@ def test_weak_symbols_name_their_set(isa):
         pytest.skip(f"{isa} is not in this build")
     found = "".join(subprocess.run(["nm", "-C", *files], text=True, capture_output=True, check=True).stdout)
     assert len(WEAK.findall(found)) > 0
-    assert shared(found, SETS[isa]) == []
+    assert shared(found, isa) == []
 
 
 def prefetches(disassembly):
     """How many instructions that ask for memory each sum over cells has."""
-    sums = re.split(r"^[0-9a-f]+ <void pairsum::tile_kernel<.*>::sum<(?:true|false)>.*:$", disassembly, flags=re.M)[1:]
+    sums = re.split(r"^[0-9a-f]+ <pairsum::lane_rows_sum<.*>::(?:half|full)_stencils\(.*:$", disassembly, flags=re.M)[1:]
     return [len(re.findall(r"\bprefetch", body.split("\n\n")[0])) for body in sums]
 
 
@@ -54,9 +58,11 @@ def test_sums_ask_for_memory_ahead(isa):
 
 
 def test_the_count_of_prefetches():
-    name = "0010 <void pairsum::tile_kernel<F, V>::sum<true>(int)>:"
+    name = "0010 <pairsum::lane_rows_sum<F, V>::half_stencils(int)>:"
     assert prefetches(f"{name}\n 1: prefetcht0 (%rax)\n 2: ret\n\n0020 <f()>:\n 3: prefetcht0 (%rax)\n\n{name}\n 4: ret\n") == [1, 0]
 
 
 def test_the_check_rejects():
-    assert shared("0000 W f(hwy::N_AVX2::Vec256<double>)\n0000 W std::max(int)\n", "hwy::N_AVX2") == ["std::max(int)"]
+    good = "0000 W f(hwy::N_AVX2::Vec256<double>)\n0000 W g(pairsum::isas::avx2 const*)\n"
+    bad = ["std::max(int)", "f(hwy::N_AVX3::Vec512<double>)", "g(pairsum::isas::avx512 const*)"]
+    assert shared(good + "".join(f"0000 W {symbol}\n" for symbol in bad), "avx2") == bad

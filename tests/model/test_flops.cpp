@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include "interactions/count.hpp"
-#include "interactions/ferrari09.hpp"
-#include "interactions/monaghan94.hpp"
-#include "smoothing/all_smoothings.hpp"
-#include "sum/costs_of.hpp"
-#include "sum/registry.hpp"
+#include <pairsum/formula/costs_of.hpp>
+#include <pairsum/interactions/count.hpp>
+#include <pairsum/interactions/ferrari09.hpp>
+#include <pairsum/interactions/monaghan94.hpp>
+#include <pairsum/smoothing/all_smoothings.hpp>
+#include <pairsum/sum/registry.hpp>
 
 // The flops that interactions and smoothing kernels declare, against those counted by running their formulas.
 namespace pairsum {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/column.hpp"
-#include "core/error.hpp"
-#include "core/workers.hpp"
+#include <pairsum/core/column.hpp>
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/workers.hpp>
 
 namespace pairsum::harness {
 namespace {

@@ -32,13 +32,11 @@ def test_every_backend_agrees(project, example, built):
 
 def test_an_interaction_that_lies_is_found_out(project, example, built):
     """Its two sides do not match: a backend that uses both disagrees with the reference, which uses one."""
-    if "symmetric" not in built("BACKENDS"):
-        pytest.skip("symmetric is not in this build")
     main = example / "main.cpp"
-    text = main.read_text()
-    lie = text.replace("m_i * w}", "1.001 * m_i * w}").replace("all_backends{}", "backend_list<symmetric>{}")
-    assert lie.count("1.001") == 1 and lie.count("backend_list<symmetric>") == 1
+    lie = main.read_text().replace("m_i * w}", "1.001 * m_i * w}")
+    assert lie.count("1.001") == 1
     main.write_text(lie)
     done = run(project, example)
     assert done.returncode == 1, done.stdout
-    assert "WRONG" in done.stdout
+    wrong = {line.split()[0]: "WRONG" in line for line in done.stdout.splitlines()[1:]}
+    assert wrong == {name: not name.startswith("naive") for name in built("BACKENDS")}

@@ -1,26 +1,27 @@
 #!/bin/sh
 # Runs race_main under ThreadSanitizer with Archer and judges what it says.
 #
-#   check.sh archer PROGRAM ARCHER                 Archer must say that it is there
-#   check.sh clean PROGRAM ARCHER NAME             NAME of the library: status 0, done, not one report
-#   check.sh planted PROGRAM ARCHER NAME           NAME is racy: a data race must be reported, in the phase sum, and nowhere before
+#   check.sh clean PROGRAM ARCHER RUNTIME NAME ISA...      NAME of the library: status 0, done, not one report
+#   check.sh planted PROGRAM ARCHER RUNTIME NAME ISA       NAME is racy: a data race must be reported, in the phase sum, not before
 #
 # ARCHER is libarcher.so, which tells ThreadSanitizer what OpenMP synchronises; libomp itself is not instrumented.
 set -u
-mode=$1 program=$2 archer=$3 name=${4:-}
+mode=$1 program=$2 archer=$3 runtime=$4 name=$5
+shift 5
 race_status=66
 output=$(mktemp) || exit 1
 trap 'rm -f "$output"' EXIT
 
+isas="$*"
 fail() {
-  echo "races: $*"
+  echo "races: $name $isas: $*"
   echo "--- the last lines of the program"
   tail -n 120 "$output"
   exit 1
 }
 
 unset OMP_THREAD_LIMIT OMP_NUM_THREADS OMP_PROC_BIND OMP_PLACES OMP_TOOL
-export OMP_DYNAMIC=false OMP_WAIT_POLICY=passive OMP_TOOL_LIBRARIES="$archer"
+export OMP_DYNAMIC=false OMP_WAIT_POLICY=passive OMP_TOOL_LIBRARIES="$archer" ARCHER_OPTIONS="verbose=1"
 # history_size: ThreadSanitizer drops a race without a word if it has forgotten where the earlier of the
 # two accesses was made. What it keeps by default is shorter than a pass, and then a missing barrier is
 # reported after minutes, if at all; 300 parts hold a whole summation (75 MiB a thread).
@@ -29,37 +30,26 @@ export TSAN_OPTIONS="ignore_noninstrumented_modules=1 exitcode=$race_status halt
 fixed=
 if setarch "$(uname -m)" -R true 2>/dev/null; then fixed="setarch $(uname -m) -R"; fi
 
-# run ARGUMENT...: fills $output and $status
-run() {
-  $fixed "$program" "$@" >"$output" 2>&1
-  status=$?
-}
-
+$fixed "$program" "$name" "$@" >"$output" 2>&1
+status=$?
+[ "$runtime" = tbb ] || grep -qi 'archer detected' "$output" || fail "Archer is not detected ($archer); install libomp-14-dev"
 case $mode in
-  archer)
-    export ARCHER_OPTIONS="verbose=1"
-    run --list
-    [ $status -eq 0 ] || fail "race_main --list exits with $status"
-    grep -i 'archer detected' "$output" || fail "Archer is not detected ($archer); install libomp-14-dev"
-    ;;
   clean)
-    run --backend "$name"
-    ! grep -q 'WARNING: ThreadSanitizer' "$output" || fail "$name: ThreadSanitizer reports"
-    [ $status -eq 0 ] || fail "$name exits with $status"
-    grep -q "^race_main: $name done\$" "$output" || fail "$name did not finish"
+    ! grep -q 'WARNING: ThreadSanitizer' "$output" || fail "ThreadSanitizer reports"
+    [ $status -eq 0 ] || fail "exits with $status"
+    grep -q "^race_main: $name done\$" "$output" || fail "did not finish"
     grep '^race_main: .* fluid particles' "$output"
-    echo "races: $name: no report"
+    echo "races: $name $isas: no report"
     ;;
   planted)
-    run --planted "$name"
-    [ $status -eq $race_status ] || fail "planted $name exits with $status, not with $race_status"
-    grep -q 'WARNING: ThreadSanitizer: data race' "$output" || fail "planted $name: no data race reported"
+    [ $status -eq $race_status ] || fail "exits with $status, not with $race_status"
+    grep -q 'WARNING: ThreadSanitizer: data race' "$output" || fail "no data race reported"
     phase=$(sed -n '/WARNING: ThreadSanitizer/q; s/^race_main: phase //p' "$output" | tail -n 1)
-    [ "$phase" = sum ] || fail "planted $name: the report is of phase ${phase:-(none)}, not of sum"
-    echo "races: planted $name: data race reported in phase sum"
+    [ "$phase" = sum ] || fail "the report is of phase ${phase:-(none)}, not of sum"
+    echo "races: planted $name $isas: data race reported in phase sum"
     ;;
   *)
-    echo "usage: check.sh archer|clean|planted PROGRAM ARCHER [NAME]" >&2
+    echo "usage: check.sh clean|planted PROGRAM ARCHER RUNTIME NAME ISA..." >&2
     exit 2
     ;;
 esac

@@ -1,77 +1,63 @@
-// Mistakes that symmetric_omp and sliced_locks could contain; each must be reported, or silence about the library
-// proves nothing.
-#include "backends/sliced_locks.hpp"
-#include "contender.hpp"
-#include "sum/backend.hpp"
-#include "sum/block.hpp"
+// Mistakes that schedules could contain; each must be reported, or silence about the library proves nothing.
+#include "planted.hpp"
+
+#include <pairsum/schedule/block.hpp>
+#include <pairsum/schedule/locked_slabs.hpp>
 
 namespace pairsum::races {
 namespace {
 
-constexpr backend_traits traits_of_planted(std::string_view name) {
-  return {.name = name,
-          .description = "a backend with a race",
-          .aliases = "",
-          .threads = runtime::omp,
-          .symmetric = true,
-          .deterministic = false,
-          .accumulates = true,
-          .evaluations_per_pair = 1,
-          .sweeps_per_colour = true,
-          .keeps_pairs = false};
-}
+constexpr backend_traits racy{
+    .description = "a backend with a race", .deterministic = false, .loop = {loop_schedule::dynamic, 32}};
 
 /// No barrier after a pass: a thread starts the next colour while others still write its cells.
-struct nowait {
-  static constexpr backend_traits traits = traits_of_planted("nowait");
+template <int D, class R>
+class nowait final : public schedule<D, R> {
+  using P = problem<D, R>;
 
-  template <class I>
-  struct workspace {
-    coloured_blocks<I::dim> blocks;
+ public:
+  static constexpr backend_traits traits = racy;
 
-    template <class Probe>
-    void prepare(const problem<I>& p, const team& t, Probe&) {
-      blocks.build(p.cells(), t);
-    }
-
-    template <class Probe>
-    void sum(const problem<I>& p, const team& t, Probe& probe) {
-#pragma omp parallel num_threads(t.threads())
-      for (unsigned o = 0; o < coloured_blocks<I::dim>::colours; ++o) {
-        const auto* const b = blocks[o].data();
-        const std::size_t n = blocks[o].size();
+  void prepare(const P& p, const team& t) override { blocks_.build(p.cells(), t); }
+  unsigned colours(const P&) const override { return coloured_blocks<D>::colours; }
+  std::size_t size(const P&, unsigned colour) const override { return blocks_[colour].size(); }
+  void unit(const P& p, unsigned colour, std::size_t k, int thread) override {
+    sum_block_of(p, blocks_[colour], k, p.to(thread));
+  }
+  void sum(const P& p, const team& t, const backend_traits&, const pass_marks&) override {
+    omp_region(t.threads(), [&](int thread) {
+      for (unsigned o = 0; o < colours(p); ++o) {
+        const std::size_t n = size(p, o);
 #pragma omp for schedule(dynamic, 32) nowait
-        for (std::size_t k = 0; k < n; ++k) sum_block(p, b[k], probe);
+        for (std::size_t k = 0; k < n; ++k) unit(p, o, k, thread);
       }
-    }
-  };
+    });
+  }
+
+ private:
+  coloured_blocks<D> blocks_;
 };
 
 /// All colours in one pass: blocks that share a cell run side by side.
-struct one_colour {
-  static constexpr backend_traits traits = traits_of_planted("one_colour");
+template <int D, class R>
+class one_colour final : public schedule<D, R> {
+  using P = problem<D, R>;
 
-  template <class I>
-  struct workspace {
-    column<block<I::dim>> blocks;
+ public:
+  static constexpr backend_traits traits = racy;
 
-    template <class Probe>
-    void prepare(const problem<I>& p, const team& t, Probe&) {
-      coloured_blocks<I::dim> coloured;
-      coloured.build(p.cells(), t);
-      blocks.clear();
-      for (unsigned o = 0; o < coloured_blocks<I::dim>::colours; ++o)
-        blocks.insert(blocks.end(), coloured[o].begin(), coloured[o].end());
-    }
+  void prepare(const P& p, const team& t) override {
+    coloured_blocks<D> coloured;
+    coloured.build(p.cells(), t);
+    blocks_.clear();
+    for (unsigned o = 0; o < coloured.colours; ++o)
+      blocks_.insert(blocks_.end(), coloured[o].begin(), coloured[o].end());
+  }
+  std::size_t size(const P&, unsigned) const override { return blocks_.size(); }
+  void unit(const P& p, unsigned, std::size_t k, int thread) override { sum_block_of(p, blocks_, k, p.to(thread)); }
 
-    template <class Probe>
-    void sum(const problem<I>& p, const team& t, Probe& probe) {
-      const auto* const b = blocks.data();
-      const std::size_t n = blocks.size();
-#pragma omp parallel for num_threads(t.threads()) schedule(dynamic, 32)
-      for (std::size_t k = 0; k < n; ++k) sum_block(p, b[k], probe);
-    }
-  };
+ private:
+  column<block<D>> blocks_;
 };
 
 /// Nothing is locked where two slabs meet.
@@ -83,24 +69,15 @@ struct no_locks {
   };
   void resize(std::size_t) {}
 };
-struct without_locks {
-  static constexpr backend_traits traits = traits_of_planted("without_locks");
-
-  template <class I>
-  struct workspace : sliced_workspace<I, no_locks> {
-    template <class Probe>
-    void sum(const problem<I>& p, const team& t, Probe& probe) {
-      sliced_workspace<I, no_locks>::sum(p, t, sliced_locks::traits.loop, probe);
-    }
-  };
-};
+template <int D, class R>
+using without_locks = slabs_with<D, R, no_locks>;
 
 }  // namespace
 
-const std::vector<contender>& planted_backends() {
-  static const std::vector<contender> all{contender::of<nowait>(), contender::of<one_colour>(),
-                                          contender::of<without_locks>()};
-  return all;
+std::vector<backend_entry> planted_backends() {
+  return {backend_entry::of<nowait>("nowait", runtime::omp), backend_entry::of<one_colour>("one_colour", runtime::omp),
+          backend_entry::of<without_locks>("without_locks", runtime::omp),
+          backend_entry::of<one_colour>("one_colour_tbb", runtime::tbb)};
 }
 
 }  // namespace pairsum::races

@@ -1,5 +1,5 @@
-#include "core/error.hpp"
-#include "sum/registry.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/sum/registry.hpp>
 #include "tests/report/report_fixture.hpp"
 
 // Peaks of the machine and the bound they set.

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/rows/reader.hpp"
 #include "harness/rows/writer.hpp"
 #include "tests/rows/example_rows.hpp"

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 
 namespace pairsum::harness {
 

@@ -7,21 +7,13 @@
 set -eu
 source=$1 build=$2
 kernels='formula_matrix|edge_cases|few_particles|clouds_test|symmetries|integrat|lost|counting_sort|reorderer|indexer|hashed_grid'
-kernels="$kernels|tiles_test|tiles[.]|mixed_test|mixed[.]|cell_blocks|block_choice|block_shape|check_input|registry|random|agreement|ferrari09|broken"
+kernels="$kernels|lanes_test|lanes[.]|isa_test|teams|mixed_test|mixed[.]|cell_blocks|block_choice|block_shape|check_input|registry|random|agreement|ferrari09|broken"
 results='words|rows|row_|stats|median|interval|ratio|speedup'
 # What takes half a minute each.
-slow='coincide.*(tbb|naive)|wrong_pair_is_rejected_by_counting'
-
-# Of the vector code only the widest that runs here: the others differ in the length of a vector alone.
-isas=all
-if [ "$(uname -m)" = x86_64 ]; then
-  isas=sse4
-  ! grep -qm1 ' avx2 ' /proc/cpuinfo || isas=avx2
-  ! grep -qm1 ' avx512vl ' /proc/cpuinfo || isas=avx512
-fi
+slow='coincide.*(tbb|naive)'
 
 mkdir -p "$build"
-cmake --preset asan -S "$source" -B "$build" "-DPAIRSUM_ISAS=$isas" >"$build/configure.log" 2>&1 || {
+cmake --preset asan -S "$source" -B "$build" >"$build/configure.log" 2>&1 || {
   cat "$build/configure.log"
   exit 1
 }

@@ -1,4 +1,4 @@
-"""One file and one word in a list add a backend, a smoothing kernel, an interaction, a case and an integrator."""
+"""One file and one word in a list add a backend, and a formula."""
 
 import difflib
 
@@ -21,7 +21,7 @@ def test_each_is_one_file_and_one_line(tree, additions):
     new, changed, lines = changes(*tree[1:])
     assert new == {a.path for a in additions}
     assert changed == {REGISTRY}
-    assert sorted(lines) == sorted(f"+   {a.word}" for a in additions)
+    assert sorted(lines) == sorted(f"+ {a.line}" for a in additions)
 
 
 def test_another_change_is_seen():
@@ -32,57 +32,43 @@ def test_another_change_is_seen():
 
 def test_the_document_has_one_of_each():
     folders = [a.path.split("/")[1] for a in documented().values()]
-    assert sorted(folders) == ["backends", "cases", "integrators", "interactions", "smoothing"]
+    assert sorted(folders) == ["backends", "formulas"]
 
 
 def test_each_is_listed(listed):
-    names = {kind: [entry["name"] for entry in listed[kind] if not entry.get("unavailable")]
-             for kind in ["backends", "cases", "integrators"]}
-    assert {"my_sum", "wrong_sum"} == set(names["backends"])
-    assert "my_case" in names["cases"]
-    assert "my_steps" in names["integrators"]
-    assert "my_kernel" in listed["smoothings"]
+    assert {"my_sum", "wrong_sum", "naive", "tiles_omp"} <= {b["name"] for b in listed["backends"]}
     assert "my_pairs" in listed["interactions"]
 
 
-@pytest.mark.parametrize("words", [["--interaction", "ferrari09"], ["--interaction", "my_pairs"], ["--case", "my_case"],
-                                   ["--smoothing", "my_kernel"]])
-def test_each_is_verified(pairsum, words):
-    done = pairsum("verify", "--backend", "my_sum", *QUICK, *words)
+@pytest.mark.parametrize("backend, interaction", [("my_sum", "ferrari09"), ("my_sum", "my_pairs"), ("symmetric_omp", "my_pairs"),
+                                                  ("tiles_omp", "my_pairs")])
+def test_each_is_verified(pairsum, backend, interaction):
+    done = pairsum("verify", "--backend", backend, *QUICK, "--interaction", interaction)
     assert done.returncode == 0, done.stdout + done.stderr
     agree, of = done.stdout.splitlines()[-1].split()[0:3:2]
     assert agree == of and int(of) > 0
 
 
-def test_the_integrator_makes_verified_steps(pairsum, tmp_path):
-    done = pairsum("run", "--case", "lattice", "--dim", "2", "--dx", "0.05", "--state", "perturbed", "--smoothing", "my_kernel",
-                   "--backend", "my_sum", "--integrator", "my_steps", "--M", "4", "--threads", "1", "--steps", "3",
-                   "--rounds", "1", "--repetitions", "1", "--out", tmp_path / "rows.jsonl")
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert (tmp_path / "rows.jsonl").read_text().count('"integrator":"my_steps"') == 3
-
-
-@pytest.mark.parametrize("words", [["--interaction", "my_pairs"], ["--interaction", "ferrari09"], ["--case", "my_case"]])
-def test_a_backend_that_drops_pairs_is_found_out(pairsum, words):
-    done = pairsum("verify", "--backend", "wrong_sum", *QUICK, *words)
+@pytest.mark.parametrize("interaction", ["my_pairs", "ferrari09"])
+def test_a_backend_that_drops_pairs_is_found_out(pairsum, interaction):
+    done = pairsum("verify", "--backend", "wrong_sum", *QUICK, "--interaction", interaction)
     assert done.returncode == 1, done.stdout + done.stderr
     assert "FAILED" in done.stdout
 
 
-@pytest.mark.parametrize("registry, path", [
-    ("PAIRSUM_ALL_BACKENDS", "kernels/backends/nowhere.hpp"),
-    ("PAIRSUM_ALL_SMOOTHINGS", "kernels/smoothing/nowhere.hpp"),
-    ("PAIRSUM_ALL_SMOOTHED_INTERACTIONS", "kernels/interactions/nowhere.hpp"),
-    ("PAIRSUM_ALL_PLAIN_INTERACTIONS", "kernels/interactions/nowhere.hpp"),
-    ("PAIRSUM_ALL_CASES", "kernels/cases/nowhere.hpp"),
-    ("PAIRSUM_ALL_INTEGRATORS", "kernels/integrators/nowhere.hpp")])
-def test_a_word_without_a_file_is_refused(tmp_path, registry, path):
+@pytest.mark.parametrize("line, says", [
+    ("BACKEND(nowhere)", "no file kernels/backends/nowhere.cpp"),
+    ("FORMULA(nowhere, plain)", "no file kernels/formulas/nowhere.cpp"),
+    ("SMOOTHING(nowhere)", "no file kernels/smoothing/nowhere.hpp"),
+    ("CASE(nowhere)", "no file kernels/cases/nowhere.cpp"),
+    ("INTEGRATOR(nowhere)", "no file kernels/integrators/nowhere.cpp"),
+    ("BACKEND(now here)", "is no word of the form KIND(name)")])
+def test_a_word_without_a_file_is_refused(tmp_path, line, says):
     folder = copy(tmp_path)
-    Addition(path, "nowhere", "", registry).list(folder)
+    Addition("", "", "", line).list(folder)
     done = configure(folder, "-DPAIRSUM_HARNESS=OFF")
-    assert done.returncode != 0
     message = " ".join(done.stdout.split())
-    assert f"there is no file {path}" in message and registry in message
+    assert done.returncode != 0 and says in message and REGISTRY in message and line.partition(",")[0].rstrip(")") in message
 
 
 def test_what_was_left_out_is_listed_with_the_option_that_brings_it(listed, pairsum):
@@ -91,24 +77,22 @@ def test_what_was_left_out_is_listed_with_the_option_that_brings_it(listed, pair
     assert missing[("precision", "float")] == "PAIRSUM_PRECISIONS"
     assert missing[("interaction", "monaghan94")] == "PAIRSUM_INTERACTIONS"
     assert missing[("smoothing kernel", "gaussian")] == "PAIRSUM_SMOOTHINGS"
-    assert "PAIRSUM_BACKENDS" in {b["name"]: b["unavailable"] for b in listed["backends"]}["naive"]
     assert "unavailable" in pairsum("list").stdout
 
 
 @pytest.mark.parametrize("words, option", [(["--precision", "float"], "PAIRSUM_PRECISIONS"), (["--dim", "3"], "PAIRSUM_DIMS"),
                                            (["--interaction", "count"], "PAIRSUM_INTERACTIONS"),
-                                           (["--smoothing", "gaussian"], "PAIRSUM_SMOOTHINGS"),
-                                           (["--backend", "naive"], "PAIRSUM_BACKENDS")])
+                                           (["--smoothing", "gaussian"], "PAIRSUM_SMOOTHINGS")])
 def test_what_was_left_out_is_refused_with_the_option_that_brings_it(pairsum, words, option):
-    here = {"--dim": "2", "--interaction": "my_pairs", "--smoothing": "my_kernel", "--backend": "my_sum", **dict([words])}
+    here = {"--dim": "2", "--interaction": "my_pairs", "--smoothing": "wendland_c2", "--backend": "my_sum", **dict([words])}
     done = pairsum("run", *[word for pair in here.items() for word in pair])
     assert done.returncode == 2 and f"-D{option}=" in done.stderr and done.stderr.count("\n") == 1
 
 
 @pytest.mark.parametrize("option, valid", [("DIMS=4", "1;2;3"), ("DIMS=", "1;2;3"), ("PRECISIONS=half", "double;float"),
-                                           ("SMOOTHINGS=gauss", "wendland_c2"), ("BACKENDS=gpu", "naive")])
+                                           ("SMOOTHINGS=gauss", "wendland_c2"), ("INTERACTIONS=", "ferrari09")])
 def test_an_option_with_a_wrong_word_is_refused(tmp_path, option, valid):
-    everything = [f"-DPAIRSUM_{choice}=all" for choice in ["DIMS", "PRECISIONS", "BACKENDS", "INTERACTIONS", "SMOOTHINGS"]]
+    everything = [f"-DPAIRSUM_{choice}=all" for choice in ["DIMS", "PRECISIONS", "INTERACTIONS", "SMOOTHINGS"]]
     done = configure(copy(tmp_path), "-DPAIRSUM_HARNESS=OFF", *everything, f"-DPAIRSUM_{option}")
     assert done.returncode != 0
     assert option.split("=")[0] in done.stdout and valid in done.stdout

@@ -47,6 +47,12 @@ def test_run_tests_ends_with_ctest(sandbox):
     assert calls[2].startswith("ctest --preset test ") and len(calls) == 3
 
 
+def test_run_tests_fast_leaves_out_what_builds_anew(sandbox):
+    done = sandbox.run("./run_tests.sh", "--no-install", "--fast")
+    assert done.returncode == 0, done.stderr
+    assert "--label-exclude leg|full" in sandbox.calls("ctest")[0]
+
+
 def test_run_tests_returns_the_status_of_ctest(sandbox):
     sandbox.stub("ctest", "#!/bin/bash\necho summary of ctest\nexit 8\n")
     done = sandbox.run("./run_tests.sh", "--no-install")

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/stats/student.hpp"
 
 namespace pairsum::harness {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/random.hpp"
+#include <pairsum/core/random.hpp>
 #include "harness/tune/contest.hpp"
 
 namespace pairsum::harness {

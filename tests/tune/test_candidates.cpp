@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/sum/profile.hpp>
 #include "harness/tune/candidates.hpp"
-#include "sum/profile.hpp"
 
 namespace pairsum::harness {
 namespace {

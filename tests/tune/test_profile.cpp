@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "sum/profile.hpp"
+#include <pairsum/core/error.hpp>
+#include <pairsum/sum/profile.hpp>
 
 namespace pairsum {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
+#include <pairsum/core/error.hpp>
 #include "harness/self_test/self_test.hpp"
 #include "harness/tune/paired_times.hpp"
 #include "harness/tune/profile_json.hpp"

@@ -1,0 +1,4 @@
+// Packs of base blocks in 4 colours, OpenMP: the loop and why it is race-free stand in schedule/block_packs.hpp.
+#include <pairsum/schedule/block_packs.hpp>
+
+PAIRSUM_BACKEND(colour4, block_packs, omp)

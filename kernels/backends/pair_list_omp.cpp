@@ -1,0 +1,4 @@
+// The list of pairs in coloured blocks, OpenMP: the loop and why it is race-free stand in schedule/row_lists.hpp.
+#include <pairsum/schedule/row_lists.hpp>
+
+PAIRSUM_BACKEND(pair_list_omp, row_lists, omp)

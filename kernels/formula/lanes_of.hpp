@@ -1,0 +1,67 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include <pairsum/core/same_code.hpp>
+#include <pairsum/formula/row_layout.hpp>
+#include <pairsum/sum/formula.hpp>
+
+namespace pairsum {
+
+/// Interaction I on the vector units that this machine runs, best first. The library's own have them for every set that
+/// was built, compiled apart (formula/formulas.hpp); one's own for the set that its source is compiled for
+/// (vector/own_lanes.hpp).
+template <class I>
+std::vector<lane_sum<I::dim, typename I::real>> lanes_of();
+
+/// What vector units need besides: functions on rates in rows. For code that no instruction set is asked of.
+template <class I>
+struct row_rates {
+  static constexpr int D = I::dim;
+  using R = typename I::real;
+  static constexpr std::uint16_t bytes[] = {padded(field_count<rates_of<I>>) * sizeof(R)};
+
+  static R* at(const rate_view& u, std::size_t i) {
+    return reinterpret_cast<R*>(static_cast<std::byte*>(u.begin[0]) + i * u.stride);
+  }
+  static void zero(const rate_view& u, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) std::fill_n(at(u, i), padded(field_count<rates_of<I>>), R(0));
+  }
+  static void add(const rate_view& to, std::size_t to_at, const rate_view& from, std::size_t from_at, std::size_t n) {
+    for (std::size_t k = 0; k < n; ++k) {
+      R* const u = at(to, to_at + k);
+      const R* const more = at(from, from_at + k);
+      for (int s = 0; s < field_count<rates_of<I>>; ++s) u[s] += more[s];
+    }
+  }
+  static void to_columns(const rate_view& rows, const rate_view& columns, std::size_t begin, std::size_t end) {
+    std::array<R*, field_count<rates_of<I>>> to;
+    for (std::size_t s = 0; s < to.size(); ++s) to[s] = static_cast<R*>(columns.begin[s]);
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t s = 0; s < to.size(); ++s) to[s][i] = at(rows, i)[s];
+  }
+  /// All lines of the rows, for which are read depends on who is in reach. Rows may lie across lines (mixed ones do).
+  PAIRSUM_SAME_CODE static void fetch(const problem<D, R>& p, const std::uint32_t* cell, unsigned n, bool) {
+    constexpr std::size_t line = 64, stride = row_layout<I>::bytes;
+    for (unsigned k = 0; k < n; ++k) {
+      const cell_range& range = p.cells().range[cell[k]];
+      if (range.fluid.size() == 0) continue;
+      const std::size_t end = range.fluid.end * stride;
+      for (std::size_t at = range.fluid.begin * stride / line * line; at < end; at += line)
+        __builtin_prefetch(p.lane->rows + at);
+      for (const std::int32_t* const place : p.places.place) __builtin_prefetch(place + range.fluid.end - 1);
+    }
+  }
+
+  /// A lane_sum whose sums alone are there, complete.
+  static lane_sum<D, R> completed(lane_sum<D, R> sum) {
+    sum.pairs.zero = &zero;
+    sum.pairs.add = &add;
+    sum.pairs.fetch = &fetch;
+    sum.pairs.rate_bytes = bytes;
+    sum.to_columns = &to_columns;
+    return sum;
+  }
+};
+
+}  // namespace pairsum

@@ -1,0 +1,175 @@
+// Finds who is in reach, and hands rows of them to the formula. Distances are tested in a loop of their own, which
+// packs the indices in reach without a branch, so that the branch predictor never has to guess a distance; the formula
+// then runs on those alone. Nothing here knows a formula.
+#include <algorithm>
+#include <vector>
+
+#include <pairsum/core/same_code.hpp>
+#include <pairsum/sum/lane_rows.hpp>
+#include <pairsum/sum/pack.hpp>
+#include <pairsum/sum/prefetch.hpp>
+#include <pairsum/sum/problem.hpp>
+#include <pairsum/sum/vector_lister.hpp>
+
+namespace pairsum {
+namespace {
+
+template <int D, class R>
+[[gnu::always_inline]] inline std::uint32_t* pack(const positions<D, R>& x, const point<D, R>& x_i, R reach2,
+                                                  std::uint32_t begin, std::uint32_t end, std::uint32_t* to) {
+  return pack_of(
+      x, x_i, reach2, begin, end, to, [](std::uint32_t k) __attribute__((always_inline)) { return k; });
+}
+
+/// The partners of particle i, candidate number i of the space, written to `to`, which has room for all candidates.
+template <int D, class R>
+[[gnu::always_inline]] inline row row_of(const search_space<D, R>& s, const meeting<D>& m, std::uint32_t i,
+                                         std::uint32_t* to) {
+  const auto x_i = s.x.point_of(i);
+  row r;
+  r.i = i;
+  r.fluid = to;
+  if (m.who == partners::others) {
+    for (const index_range& f : m.fluid) {
+      if (i < f.begin || i >= f.end) {
+        to = pack(s.x, x_i, s.reach2, f.begin, f.end, to);
+      } else {
+        to = pack(s.x, x_i, s.reach2, f.begin, i, to);
+        to = pack(s.x, x_i, s.reach2, i + 1, f.end, to);
+      }
+    }
+  } else {
+    const bool later = m.who == partners::later;
+    for (const index_range *f = m.fluid.begin(), *end = m.fluid.end(); f != end; ++f)
+      to = pack(s.x, x_i, s.reach2, later && f == m.fluid.begin() ? i + 1 : f->begin, f->end, to);
+  }
+  r.fluid_count = static_cast<std::uint32_t>(to - r.fluid);
+  r.boundary = to;
+  if (s.boundary_reach2 > 0)
+    for (const index_range& b : m.boundary) to = pack(s.x, x_i, s.boundary_reach2, b.begin, b.end, to);
+  r.boundary_count = static_cast<std::uint32_t>(to - r.boundary);
+  return r;
+}
+
+/// From numbers in the space's order to particles.
+inline void rename(row& r, const std::uint32_t* order) {
+  auto* const hits = const_cast<std::uint32_t*>(r.fluid);
+  for (std::uint32_t k = 0; k < r.fluid_count + r.boundary_count; ++k) hits[k] = order[hits[k]];
+  r.i = order[r.i];
+}
+
+template <int D>
+void count_row(const row& r, const meeting<D>& m, work_counts& counts) {
+  counts.pairs_tested += m.fluid.size() + m.boundary.size();
+  if (m.who == partners::later) counts.pairs_tested -= r.i + 1 - m.begin;
+  counts.pairs_fluid_boundary += r.boundary_count;
+  if (m.who == partners::others) {
+    --counts.pairs_tested;                                                                           // itself
+    for (std::uint32_t k = 0; k < r.fluid_count; ++k) counts.pairs_fluid_fluid += r.fluid[k] < r.i;  // seen twice
+  } else {
+    counts.pairs_fluid_fluid += r.fluid_count;
+  }
+}
+
+/// A particle with more candidates than a thread keeps room for.
+template <int D, class R>
+[[gnu::noinline]] void list_large(const search_space<D, R>& s, const row_sink& sink, const meeting<D>& m,
+                                  std::uint32_t i, std::size_t candidates, work_counts* counts) {
+  std::vector<std::uint32_t> hits(candidates + 1);
+  row r = row_of(s, m, i, hits.data());
+  if (counts != nullptr) count_row(r, m, *counts);
+  if (s.order != nullptr) rename(r, s.order);
+  sink.take(sink.call, &r, 1);
+}
+
+template <int D, class R>
+PAIRSUM_SAME_CODE void list_rows(const search_space<D, R>& s, const row_sink& sink, const meeting<D>* all, unsigned n,
+                                 work_counts* counts) {
+  std::uint32_t hits[most_hits + 1];  // one more is written than is in reach
+  row rows[most_rows];
+  std::uint32_t* to = hits;
+  std::size_t filled = 0;
+  const auto flush = [&]() __attribute__((always_inline)) {
+    if (filled > 0) sink.take(sink.call, rows, filled);
+    to = hits;
+    filled = 0;
+  };
+  for (unsigned k = 0; k < n; ++k) {
+    const meeting<D>& m = all[k];
+    const bool keep_empty = m.who == partners::others;
+    const std::size_t candidates = m.fluid.size() + m.boundary.size();
+    for (std::uint32_t i = m.begin; i < m.end; ++i) {
+      if (filled == most_rows || candidates > static_cast<std::size_t>(hits + most_hits - to)) {
+        flush();
+        if (candidates > most_hits) [[unlikely]] {
+          list_large(s, sink, m, i, candidates, counts);
+          continue;
+        }
+      }
+      row& r = rows[filled];
+      r = row_of(s, m, i, to);
+      if (counts != nullptr) [[unlikely]]
+        count_row(r, m, *counts);
+      const std::uint32_t found = r.fluid_count + r.boundary_count;
+      if (found == 0 && !keep_empty) continue;
+      if (s.order != nullptr) rename(r, s.order);
+      to += found;
+      ++filled;
+    }
+  }
+  flush();
+}
+
+}  // namespace
+
+template <int D, class R>
+void list_meetings(const problem<D, R>& p, const search_space<D, R>& space, const row_sink& sink, const meeting<D>* m,
+                   unsigned n, work_counts* counts) {
+  if (p.lanes != nullptr)
+    p.lanes->list(space.places, space.order, sink, m, n);
+  else
+    list_rows(space, sink, m, n, counts);
+}
+
+template <int D, class R>
+void sum_meetings(const problem<D, R>& p, const search_space<D, R>& space, const target& to, const meeting<D>* m,
+                  unsigned n) {
+  if (n == 0) return;
+  const sum_call<D, R> call{p, to};
+  const rows_function take = m->who == partners::others ? p.pairs->own : p.pairs->both[static_cast<unsigned>(to.how)];
+  const row_sink sink{take, &call, p.spare_of(to.thread)};
+  if (p.counts != nullptr) [[unlikely]] {
+    const counted_rows<D, R> counted{sink, *p.counts};
+    list_meetings(p, space, {&counted_rows<D, R>::take, &counted, sink.spare}, m, n, p.counts);
+  } else {
+    list_meetings<D, R>(p, space, sink, m, n, nullptr);
+  }
+}
+
+template <int D, class R>
+void sum_cells(const problem<D, R>& p, const target& to, partners who, const std::uint32_t* cell, std::size_t n) {
+  const bool half = who == partners::later;
+  if (p.lanes != nullptr) {
+    const sum_call<D, R> call{p, to};
+    return (half ? p.pairs->half_stencils : p.pairs->full_stencils)(call, cell, n);
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    if (half) {
+      fetch_in_list<true>(p, cell, n, k);
+      sum_meetings(p, to, half_stencil(p.cells(), cell[k], p.counts));
+    } else {
+      fetch_in_list<false>(p, cell, n, k);
+      sum_meetings(p, to, full_stencil(p.cells(), cell[k]));
+    }
+  }
+}
+
+#define PAIRSUM_LISTERS(D, R)                                                                                      \
+  template void list_meetings(const problem<D, R>&, const search_space<D, R>&, const row_sink&, const meeting<D>*, \
+                              unsigned, work_counts*);                                                             \
+  template void sum_meetings(const problem<D, R>&, const search_space<D, R>&, const target&, const meeting<D>*,    \
+                             unsigned);                                                                            \
+  template void sum_cells(const problem<D, R>&, const target&, partners, const std::uint32_t*, std::size_t);
+PAIRSUM_EACH_D_R(PAIRSUM_LISTERS)
+
+}  // namespace pairsum

@@ -1,0 +1,88 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include <pairsum/core/pass_observer.hpp>
+#include <pairsum/sum/backend_traits.hpp>
+#include <pairsum/sum/problem.hpp>
+#include <pairsum/sum/setup.hpp>
+
+namespace pairsum {
+
+struct any_schedule {
+  virtual ~any_schedule() = default;
+};
+
+/// A summation algorithm: who is summed when, into what. It cuts the sum into units of work by colours: units of a
+/// colour run at the same time, on any thread, and write to different particles; between colours there is a barrier. It
+/// is kept from step to step and does not time, print, or know the formula. A schedule has `static constexpr
+/// backend_traits traits` without name and runtime, and PAIRSUM_BACKEND makes a backend of it.
+template <int D, class R>
+class schedule : public any_schedule {
+ public:
+  using problem_type = problem<D, R>;
+
+  /// Reads the options, before there are particles. `cell_bytes`: what a sum touches of a cell's particles at the
+  /// talk's spacing of H/2. Throws pairsum::error for what is not to be had.
+  virtual void configure(const setup&, std::size_t /*cell_bytes*/) {}
+  /// Refreshes its own buffers, lists, colours (timed apart).
+  virtual void prepare(const problem_type&, const team&) {}
+  /// The rates to 0.
+  virtual void zero(const problem_type& p, const team& t) {
+    if (p.is_zero) return;
+    t.for_pieces(p.fluid_count,
+                 [&](std::size_t begin, std::size_t end, std::size_t) { p.pairs->zero(p.u, begin, end); });
+  }
+  virtual unsigned colours(const problem_type&) const { return 1; }
+  /// Units of a colour.
+  virtual std::size_t size(const problem_type& p, unsigned colour) const = 0;
+  /// Sums unit k of a colour, on thread `thread` of the team.
+  virtual void unit(const problem_type& p, unsigned colour, std::size_t k, int thread) = 0;
+  /// All units, on the runtime that the traits name. Overridden by algorithms with a runtime of their own.
+  virtual void sum(const problem_type& p, const team& t, const backend_traits& own, const pass_marks& marks);
+  /// Joins private copies.
+  virtual void reduce(const problem_type&, const team&) {}
+
+  /// Of lists that are kept (traits.skin > 0): do they still name every pair in reach? The particles must be those, in
+  /// the order, of the last prepare().
+  virtual bool outlasts(const problem_type&, const team&) const { return false; }
+  /// The particles are, or may be, others, or in another order.
+  virtual void expire() {}
+  /// The blocks of cells as made last, as a word of block_shape; "none" without blocks.
+  virtual std::string block() const { return "none"; }
+};
+
+#define PAIRSUM_SCHEDULES(D, R) extern template class schedule<D, R>;
+PAIRSUM_EACH_D_R(PAIRSUM_SCHEDULES)
+#undef PAIRSUM_SCHEDULES
+
+/// A backend of a registry.
+struct backend_entry {
+  backend_traits traits;
+  std::unique_ptr<any_schedule> (*make)(int dim, bool single);  ///< schedule<dim, single ? float : double>
+  std::string unavailable = {};                                 ///< why it cannot be used, empty if it can
+
+  /// The backend `word` that runs schedule S on runtime r; `word` must live for ever.
+  template <template <int, class> class S>
+  static backend_entry of(std::string_view word, runtime r) {
+    return {S<3, double>::traits.on(word, r), [](int dim, bool single) -> std::unique_ptr<any_schedule> {
+              if (dim == 1) return single ? make_as<S<1, float>>() : make_as<S<1, double>>();
+              if (dim == 2) return single ? make_as<S<2, float>>() : make_as<S<2, double>>();
+              return single ? make_as<S<3, float>>() : make_as<S<3, double>>();
+            }};
+  }
+
+ private:
+  template <class S>
+  static std::unique_ptr<any_schedule> make_as() {
+    return std::make_unique<S>();
+  }
+};
+
+}  // namespace pairsum
+
+/// The backend `word`: schedule `algorithm` on runtime `on` (serial, omp, tbb).
+#define PAIRSUM_BACKEND(word, algorithm, on)                                        \
+  namespace pairsum::backends {                                                     \
+  backend_entry word() { return backend_entry::of<algorithm>(#word, runtime::on); } \
+  }
