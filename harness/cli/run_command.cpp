@@ -44,9 +44,7 @@ constexpr level_option level_options[] = {
     {"dt", "1e-5", "time step in s"},
     {"grid", "hashed_grid", "grids, a list; those that take no M are measured once"},
     {"isa", "default", "scalar, best, instruction sets, a list; default: best for tiles, scalar for others; all"},
-    {"block", "auto",
-     "blocks of backends that have some, a list: auto, slab:4, pencil:4, brick:4 (4 cells wide), with :bundles or "
-     ":morton behind for another order of cells"},
+    {"block", "auto", "blocks of backends that have some, a list: auto, slab:4, pencil:4, brick:4 (4 cells wide)"},
     {"order", "lattice", "orders of memory at the start, a list: lattice, shuffled, morton"},
     {"outside", "error", "particles outside Omega: error or drop"},
     {"steps", "5", "time steps per repetition"},

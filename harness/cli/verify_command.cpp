@@ -69,7 +69,7 @@ class lines_printer {
     return cells_word(p);
   }
   /// What was chosen of isa and block.
-  static std::string extras(const setup& s) { return (" " + s.isa) + (s.block == "auto" ? "" : " " + s.block); }
+  static std::string extras(const setup& s) { return " " + s.isa + (s.block == "auto" ? "" : " " + s.block); }
 
   void close() {
     if (here_ > 0 && !each_)
