@@ -68,7 +68,6 @@ std::string list_of(const Names& names) {
 /// What "all" stands for.
 std::string every_word(const std::string& key) {
   if (key == "grid") return list_of(grid_names());
-  if (key == "isa") return list_of(isa_names());
   return list_of(available_backends());
 }
 
@@ -85,7 +84,7 @@ void check_writable(const std::string& path) {
 int start_tuning(const tune_settings& o, bool save) {
   tune_request r = o.request;
   for (const auto& [key, text] : o.levels) {
-    const bool all = text == "all" && (key == "backend" || key == "grid" || key == "isa");
+    const bool all = text == "all" && (key == "backend" || key == "grid");
     read_level(r.levels, key, all ? every_word(key) : text, usable_cores(), "--" + key);
   }
   r.rules.seed = r.levels.seed;

@@ -11,7 +11,7 @@ struct bench_request {
   std::string case_name = "dam_break", state = "rest";
   double dx = 0.02;
   std::vector<int> M{6, 7}, threads{1};
-  std::vector<std::string> grids{"hashed_grid"}, isas{"best"}, blocks{"auto"};
+  std::vector<std::string> grids{"hashed_grid"}, isas{"default"}, blocks{"auto"};
 };
 
 /// The same as a request, of every backend that is built.

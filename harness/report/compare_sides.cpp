@@ -6,6 +6,7 @@
 #include <set>
 
 #include <pairsum/core/error.hpp>
+#include <pairsum/core/isa.hpp>
 #include <pairsum/core/names.hpp>
 #include "harness/report/builds.hpp"
 #include "harness/report/compared_points.hpp"
@@ -115,13 +116,12 @@ struct compared {
 bool do_the_same(const compare_request& r, kind what, const compared_side& a, const compared_side& b,
                  const measurements& all, const measured_point& p, const measured_point& q) {
   point like = q.point;
-  // What the build was compiled for is no choice; two vector backends, or two builds of one, have the same.
-  if (!chooses_isa(p.point) || !chooses_isa(q.point)) like.isa = p.point.isa;
   if (what != kind::backends) return like == p.point;
   const series &of_p = all.series[p.series], &of_q = all.series[q.series];
   if (of_p.build != of_q.build || of_p.seed != of_q.seed) return false;
   if (&p == &q || !is_of(p.point, a) || !is_of(q.point, b)) return false;
   if (p.point.block == "none" || q.point.block == "none") like.block = p.point.block;
+  if (have_like_isa(p.point, q.point)) like.isa = p.point.isa;
   like = without_differences(like, p.point, a, b);
   like.backend = a.backend;
   like.granularity = p.point.granularity;
@@ -157,9 +157,9 @@ std::string rare_words(const point& p) {
                      p.dim);
 }
 
-/// What was chosen for a vector backend or one with blocks, beside the usual.
+/// Which vector units and blocks, if any.
 std::string variant_of(const point& p) {
-  return (chooses_isa(p) ? " " + p.isa : "") + (p.block == "none" || p.block == "auto" ? "" : " " + p.block);
+  return (p.isa == scalar_isa ? "" : " " + p.isa) + (p.block == "none" || p.block == "auto" ? "" : " " + p.block);
 }
 
 /// That of a point and its counterpart: once if they have the same or only one of them has any, else "this / that".

@@ -26,11 +26,16 @@ ratio_estimate ratio_of(const measurements& all, const measured_point& base, con
   return unpaired_ratio(values_of(base, phase), values_of(other, phase));
 }
 
-bool chooses_isa(const point& p) {
-  if (p.isa == scalar_isa) return true;
-  const std::string backend = working_backend(p.backend);
-  return std::ranges::any_of(registry::instance().backends(),
-                             [&](const backend_entry& b) { return b.traits.name == backend && b.traits.vector; });
+bool have_like_isa(const point& p, const point& q) {
+  if (p.isa == q.isa) return true;
+  const auto is_made_for = [](const point& one) {
+    const std::string backend = working_backend(one.backend);
+    const bool vector = std::ranges::any_of(registry::instance().backends(), [&](const backend_entry& b) {
+      return b.traits.name == backend && b.traits.vector;
+    });
+    return vector == (one.isa != scalar_isa);
+  };
+  return is_made_for(p) && is_made_for(q);
 }
 
 bool is_timed(const measured_point& p) { return comparable_time(p, &phases::sum_s).has_value(); }

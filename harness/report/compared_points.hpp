@@ -36,9 +36,9 @@ const measured_point* counterpart(const measurements& all, const measured_point&
 /// A point's M, null where its grid takes none.
 nlohmann::json m_or_null(const point& p);
 
-/// Is the point's isa a choice, of a vector backend, and not what its build was compiled for? (That of a backend which
-/// this build does not know is none.)
-bool chooses_isa(const point& p);
+/// Do two points sum on the same instruction set, or each on what its backend is made for: vector units, or none? (One
+/// that this build does not know is made for none.)
+bool have_like_isa(const point& p, const point& q);
 
 /// The keys of an entry that say where a point stands: series, case, state, dx, backend, grid, granularity, isa, block,
 /// M, threads.

@@ -159,9 +159,7 @@ json compiler_comparisons(const measurements& all, std::vector<std::string>& cav
   for (const measured_point& base : all.points)
     for (const measured_point& own : all.points) {
       const series &a = all.series[base.series], &b = all.series[own.series];
-      point like = own.point;
-      if (!chooses_isa(like)) like.isa = base.point.isa;  // a property of the build
-      if (a.build != 0 || b.build == 0 || a.study != b.study || !(base.point == like)) continue;
+      if (a.build != 0 || b.build == 0 || a.study != b.study || !(base.point == own.point)) continue;
       if (!is_timed(base) || !is_timed(own)) continue;
       json entry = place_of(own);
       entry["base_compiler"] = a.build_name;

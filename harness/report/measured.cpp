@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include <pairsum/core/error.hpp>
+#include <pairsum/core/isa.hpp>
 #include "harness/report/builds.hpp"
 #include "harness/report/compared_points.hpp"
 #include "harness/report/step_means.hpp"
@@ -45,6 +46,14 @@ std::optional<std::uint64_t> seed_of(const sample& s) {
   return same ? std::nullopt : std::optional(s.seed);
 }
 
+/// The isa of a point is what summed. Rows used to have that of the build, so those whose pairs were not in vectors are
+/// scalar, whatever they say.
+point point_of(const sample& s) {
+  point p = s.point;
+  if (s.work && (!s.work->vector_units || s.work->vector_units->lanes == 1)) p.isa = scalar_isa;
+  return p;
+}
+
 bool verified(const sample& s) { return !s.error && s.phases && s.verify.fingerprint; }
 
 std::size_t series_of(measurements& all, const group_key& key, const builds& known) {
@@ -56,15 +65,10 @@ std::size_t series_of(measurements& all, const group_key& key, const builds& kno
   common.block.clear();
   common.M = 0;
   common.threads = 0;
-  const std::string isa = chooses_isa(key.point) ? "" : key.point.isa;  // of the build
   for (std::size_t i = 0; i < all.series.size(); ++i) {
-    series& s = all.series[i];
-    common.isa = s.common.isa;
-    if (s.study != key.study || s.build != key.build || s.seed != key.seed || !(s.common == common)) continue;
-    if (s.common.isa.empty()) s.common.isa = isa;
-    if (isa.empty() || s.common.isa == isa) return i;
+    const series& s = all.series[i];
+    if (s.study == key.study && s.build == key.build && s.seed == key.seed && s.common == common) return i;
   }
-  common.isa = isa;
   all.series.push_back(
       {key.study, key.build, known.first(key.build).environment, build_name(known.first(key.build)), key.seed, common});
   return all.series.size() - 1;
@@ -151,7 +155,7 @@ measurements collect(const std::vector<rows_file>& files, bool allow_mixed) {
       const std::size_t build = known.add(e);
       all.build_of_environment[e.environment] = build;
       builds_of_round[{s.study, s.round}].insert(build);
-      group& g = groups[{s.study, build, seed_of(s), s.point}];
+      group& g = groups[{s.study, build, seed_of(s), point_of(s)}];
       g.cores = e.cores;
       g.rounds[{file, s.round}][s.repetition].push_back(s);
     }

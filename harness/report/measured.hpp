@@ -36,8 +36,7 @@ struct round_value {
 };
 
 /// Points that may stand in one table: the same study, machine and build, and the same problem;
-/// they differ in backend, grid, block, granularity, M and threads only, which are empty in `common`, and in the isa of
-/// vector backends; `common` has that of the build, empty if no other backend was measured.
+/// they differ in backend, isa, grid, block, granularity, M and threads only, which are empty in `common`.
 struct series {
   std::string study;
   std::size_t build = 0;              ///< which of the different machines and builds

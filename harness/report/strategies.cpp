@@ -28,6 +28,7 @@ json over_serial(const measurements& all, const rung& own) {
   for (const measured_point& q : all.points) {
     const point &a = q.point, &b = own.p->point;
     if (q.series != own.p->series || a.backend != serial || a.grid != b.grid || a.M != b.M) continue;
+    if (!have_like_isa(a, b)) continue;
     const round_values times = evaluations_of(q);
     if (!times.empty()) return estimate(ratio_of(own.times, times));
   }

@@ -106,7 +106,7 @@ json point_entry(const measurements& all, const measured_point& p) {
 json series_entry(const series& s) {
   json entry = s.common;
   for (const char* varied : {"backend", "grid", "granularity", "block", "M", "threads"}) entry.erase(varied);
-  if (s.common.isa.empty()) entry["isa"] = nullptr;
+  entry["isa"] = nullptr;  // a level of its points
   entry["study"] = s.study;
   entry["environment"] = s.environment;
   entry["build"] = s.build_name;

@@ -35,12 +35,11 @@ std::string title(const json& s) {
 }
 
 std::string details(const json& summary, const json& s) {
-  std::string text = fmt::format("{} fluid and {} boundary particles; study {}, order {}, {}D, {}, {}, {}, {}, dt {}{}",
+  std::string text = fmt::format("{} fluid and {} boundary particles; study {}, order {}, {}D, {}, {}, {}, {}, dt {}",
                                  whole(s["n_fluid"]), whole(s["n_boundary"]), s["study"].get<std::string>(),
                                  s["order"].get<std::string>(), whole(s["dim"]), s["precision"].get<std::string>(),
                                  s["interaction"].get<std::string>(), s["smoothing"].get<std::string>(),
-                                 s["integrator"].get<std::string>(), number(s["dt"]),
-                                 s["isa"].is_null() ? "" : ", isa " + s["isa"].get<std::string>());
+                                 s["integrator"].get<std::string>(), number(s["dt"]));
   for (const json& e : summary.at("environments"))
     if (e["environment"] == s["environment"]) {
       text += fmt::format("; host {}, {} cores, {}, git {}{}", e["host"].get<std::string>(), whole(e["cores"]),

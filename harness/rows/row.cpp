@@ -78,7 +78,7 @@ work_row read_work(fields from) {
   work_row w;
   for (const work_member& member : work_members) w.*member.value = from.count(member.name);
   w.pairs_tested_unfolded = from.count_or_null("pairs_tested_unfolded");
-  if (from.has("vector_units")) {  // of vector backends alone
+  if (from.has("vector_units")) {
     fields units = from.nested("vector_units");
     w.vector_units = {units.text("block"), units.count("lanes"), units.count("vectors"), units.number("occupancy")};
     units.finish();

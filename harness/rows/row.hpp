@@ -61,7 +61,8 @@ inline constexpr std::array<phase_member, 7> phase_members{{{"index_s", &phases:
                                                             {"integrate_s", &phases::integrate_s},
                                                             {"total_s", &phases::total_s}}};
 
-/// How a vector backend used its units: blocks of cells as made, and vectors of pairs with the share of lanes in use.
+/// Of a sum on vector units or over blocks of cells: blocks as made, and vectors of pairs with the share of lanes in
+/// use.
 struct vector_use {
   std::string block;
   std::uint64_t lanes = 0, vectors = 0;
@@ -74,7 +75,7 @@ struct work_row {
   std::uint64_t cells = 0, cells_nonempty = 0, sumF1 = 0, sumF2 = 0, pairs_tested = 0, pairs_interacting = 0,
                 pairs_fluid_fluid = 0, pairs_fluid_boundary = 0;
   std::optional<std::uint64_t> pairs_tested_unfolded;  ///< distance tests without folded cells
-  std::optional<vector_use> vector_units{};            ///< of vector backends
+  std::optional<vector_use> vector_units{};            ///< of sums on vector units or over blocks
   bool operator==(const work_row&) const = default;
 };
 

@@ -20,10 +20,9 @@ void check_single(const char* what, std::size_t levels) {
 
 /// The words of a point, with their keys; those that make no difference to its backend are left out.
 std::vector<std::pair<std::string, std::string>> words_of(const point& p, const registry& all) {
-  const backend_traits& traits = all.find_backend(p.backend).traits;
   std::vector<std::pair<std::string, std::string>> words{{"backend", p.backend}, {"grid", p.grid}};
   if (p.M > 0) words.emplace_back("M", std::to_string(p.M));
-  if (traits.vector || p.isa != scalar_isa) words.emplace_back("isa", p.isa);
+  if (says_isa(p, all)) words.emplace_back("isa", p.isa);
   if (p.block != no_block) words.emplace_back("block", p.block);
   words.emplace_back("precision", p.precision);
   words.emplace_back("threads", std::to_string(p.threads));
@@ -32,6 +31,10 @@ std::vector<std::pair<std::string, std::string>> words_of(const point& p, const 
 }
 
 }  // namespace
+
+bool says_isa(const point& p, const registry& all) {
+  return p.isa != scalar_isa || all.find_backend(p.backend).traits.vector;
+}
 
 std::vector<point> candidates_of(const run_request& r, const registry& all) {
   check_single("dx", r.dx.size());

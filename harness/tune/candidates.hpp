@@ -10,6 +10,9 @@ namespace pairsum::harness {
 /// world but for its precisions.
 std::vector<point> candidates_of(const run_request& r, const registry& all);
 
+/// Is the point's isa worth a word? Not `scalar` of a backend that is made for no vector units.
+bool says_isa(const point& p, const registry& all);
+
 /// Whose slow look speaks for the rest.
 std::string family_of(const point& p);
 

@@ -1,5 +1,4 @@
 #include "harness/tune/tune_text.hpp"
-#include <pairsum/core/isa.hpp>
 
 #include <fmt/format.h>
 
@@ -21,8 +20,7 @@ constexpr std::size_t most_looks_shown = 8;  ///< of those that got no rounds
 std::string count_of(std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
 
 std::string what_of(const point& p, const registry& all) {
-  const backend_traits& traits = all.find_backend(p.backend).traits;
-  return place_words(p) + (traits.vector || p.isa != scalar_isa ? " " + p.isa : "") + " " + p.precision;
+  return place_words(p) + (says_isa(p, all) ? " " + p.isa : "") + " " + p.precision;
 }
 
 /// A line of the ladder.

@@ -1,6 +1,7 @@
 #pragma once
 #include <omp.h>
 
+#include <algorithm>
 #include <cstddef>
 
 #include <pairsum/core/pass_observer.hpp>
@@ -32,11 +33,11 @@ void omp_pass(unsigned pass, std::size_t n, const granularity& g, const pass_mar
     f(k);
   };
   marks.work_begins(pass, thread);
-  const std::size_t chunk = g.chunk;
+  const std::size_t chunk = std::max<std::size_t>(g.chunk, 1);
   if (g.how == loop_schedule::guided) {  // NOLINT(bugprone-branch-clone): what differs is how it is shared out
 #pragma omp for schedule(guided, chunk) nowait
     for (std::size_t k = 0; k < n; ++k) unit(k);
-  } else if (g.how == loop_schedule::fixed && chunk == 0) {
+  } else if (g.how == loop_schedule::fixed && g.chunk == 0) {
 #pragma omp for schedule(static) nowait
     for (std::size_t k = 0; k < n; ++k) unit(k);
   } else if (g.how == loop_schedule::fixed) {

@@ -2,6 +2,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cstddef>
 
 #include <pairsum/core/pass_observer.hpp>
@@ -15,7 +16,7 @@ namespace pairsum {
 template <class F>
 void tbb_pass(unsigned pass, std::size_t n, const granularity& g, const pass_marks& marks, F&& f) {
   using range = ::tbb::blocked_range<std::size_t>;
-  const range all(0, n, g.chunk);
+  const range all(0, n, std::max<std::size_t>(g.chunk, 1));
   const auto piece = [&](const range& r) __attribute__((noinline)) {  // for the reason told in omp_loop.hpp
     const int thread = ::tbb::this_task_arena::current_thread_index();
     marks.work_begins(pass, thread);

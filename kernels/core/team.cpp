@@ -37,6 +37,10 @@ void check_prepared(int threads, const team& t) {
   if (t.threads() > threads)
     throw error("prepared for " + std::to_string(threads) + " threads, but to be summed on " +
                 std::to_string(t.threads()));
+  const int arena = t.kind() == runtime::tbb ? t.arena().arena.max_concurrency() : t.threads();
+  if (arena > t.threads())
+    throw error("a team of " + std::to_string(t.threads()) + " oneTBB threads has an arena of " +
+                std::to_string(arena) + ": make it with as many");
 }
 
 }  // namespace pairsum

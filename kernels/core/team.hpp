@@ -90,7 +90,7 @@ class team {
 /// Throws pairsum::error if an OpenMP team of `threads` came out as `got`.
 void check_team(int threads, int got);
 
-/// Throws pairsum::error if a sum that was prepared for so many threads gets a team of more.
+/// Throws pairsum::error if a sum that was prepared for so many threads gets a team of more, or an arena of more.
 void check_prepared(int threads, const team& t);
 
 }  // namespace pairsum

@@ -69,8 +69,7 @@ struct point {
 };
 
 /// f(x), compiled once for points deep inside and once for those near a face: a loop in f over x - x_j has no branch
-/// for faces then, which compilers need to put it on vector units. For loops over lists; each_in_reach() does so
-/// itself.
+/// for faces then, which compilers need to put it on vector units.
 template <int D, class R, class F>
 [[gnu::always_inline]] inline void either_side(const point<D, R>& x, F&& f) {
   if (x.across == nullptr) [[likely]]

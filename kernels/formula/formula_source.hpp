@@ -1,5 +1,5 @@
 #pragma once
-// What a source in formulas/ is: PAIRSUM_FORMULAS(smoothed, ferrari09) or PAIRSUM_FORMULAS(plain, count).
+// What a source in formulas/ is: PAIRSUM_FORMULAS(ferrari09, smoothed) or PAIRSUM_FORMULAS(count, plain).
 #include <pairsum/core/precision.hpp>
 #include <pairsum/formula/formulas.hpp>
 #include <pairsum/smoothing/all_smoothings.hpp>
@@ -55,21 +55,13 @@ void append_entries(formula_types<I...>, std::vector<formula_entry>& to) {
   (one(static_cast<const I*>(nullptr)), ...);
 }
 
-template <class I, class... Isas>
-std::vector<lane_sum<I::dim, typename I::real>> those_that_run(isa_list<Isas...>) {
-  std::vector<lane_sum<I::dim, typename I::real>> all;
-  if constexpr (takes_lanes<I>) {
-    const auto names = isa_names();
-    const auto take = [&]<class Isa>(const Isa* isa) {
-      if (std::ranges::find(names, Isa::name) != names.end()) all.push_back(row_rates<I>::completed(lanes_on<I>(isa)));
-    };
-    (take(static_cast<const Isas*>(nullptr)), ...);
-  }
-  return all;
-}
 template <class I>
 std::vector<lane_sum<I::dim, typename I::real>> lanes_of() {
-  return those_that_run<I>(isa_list<PAIRSUM_ISA_LIST>());
+  std::vector<lane_sum<I::dim, typename I::real>> all;
+  if constexpr (takes_lanes<I>)
+    each_that_runs(isa_list<PAIRSUM_ISA_LIST>(),
+                   [&](const auto* isa) { all.push_back(row_rates<I>::completed(lanes_on<I>(isa))); });
+  return all;
 }
 #endif
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string_view>
 
 #include <pairsum/core/isa.hpp>
@@ -8,8 +9,6 @@
 /// vector units are compiled. PAIRSUM_SMOOTHING_LIST and PAIRSUM_ISA_LIST are what is built, with commas.
 #define PAIRSUM_JOIN_(a, b) a##b
 #define PAIRSUM_JOIN(a, b) PAIRSUM_JOIN_(a, b)
-#define PAIRSUM_TEXT_(a) #a
-#define PAIRSUM_TEXT(a) PAIRSUM_TEXT_(a)
 
 namespace pairsum {
 
@@ -31,6 +30,17 @@ struct neon {
 
 template <class... Isas>
 struct isa_list {};
+
+/// Calls use(isa) for each of the list that this machine runs, in its order; `isa` is a null pointer that carries the
+/// type.
+template <class... Isas, class Use>
+void each_that_runs(isa_list<Isas...>, Use&& use) {
+  const auto names = isa_names();
+  const auto use_one = [&]<class Isa>(const Isa* isa) {
+    if (std::ranges::find(names, Isa::name) != names.end()) use(isa);
+  };
+  (use_one(static_cast<const Isas*>(nullptr)), ...);
+}
 
 /// Smoothing kernels as parameters.
 template <template <int, class> class... Smoothings>

@@ -41,14 +41,20 @@ struct row_rates {
       for (std::size_t s = 0; s < to.size(); ++s) to[s][i] = at(rows, i)[s];
   }
   /// All lines of the rows, for which are read depends on who is in reach. Rows may lie across lines (mixed ones do).
-  PAIRSUM_SAME_CODE static void fetch(const problem<D, R>& p, const std::uint32_t* cell, unsigned n, bool) {
-    constexpr std::size_t line = 64, stride = row_layout<I>::bytes;
+  PAIRSUM_SAME_CODE static void fetch(const problem<D, R>& p, const std::uint32_t* cell, unsigned n,
+                                      const rate_view* rates) {
+    constexpr std::size_t line = 64;
+    const bool apart = rates != nullptr && rates->begin != p.u.begin;  // not in the rows
     for (unsigned k = 0; k < n; ++k) {
       const cell_range& range = p.cells().range[cell[k]];
       if (range.fluid.size() == 0) continue;
-      const std::size_t end = range.fluid.end * stride;
-      for (std::size_t at = range.fluid.begin * stride / line * line; at < end; at += line)
-        __builtin_prefetch(p.lane->rows + at);
+      const auto lines_of = [&](const std::byte* from, std::size_t stride) {
+        const std::size_t end = range.fluid.end * stride;
+        for (std::size_t at = range.fluid.begin * stride / line * line; at < end; at += line)
+          __builtin_prefetch(from + at);
+      };
+      lines_of(p.lane->rows, row_layout<I>::bytes);
+      if (apart) lines_of(static_cast<const std::byte*>(rates->begin[0]), rates->stride);
       for (const std::int32_t* const place : p.places.place) __builtin_prefetch(place + range.fluid.end - 1);
     }
   }

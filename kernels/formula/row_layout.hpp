@@ -52,7 +52,6 @@ lane_layout layout_of() {
   lane_layout l;
   l.rates_at = layout::rates_at * sizeof(typename layout::value);
   l.stride = layout::bytes;
-  l.rates = layout::rates;
   l.rates_bytes = padded(layout::rates) * sizeof(real);
   l.value = sizeof(typename layout::value);
   l.mixed = is_mixed<I>;

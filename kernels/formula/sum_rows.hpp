@@ -102,7 +102,8 @@ struct sum_rows {
   /// The first and last of a cell's fluid: its columns are a cache line or two each. (Compilers may not look into it: a
   /// function that does nothing else has no effect for g++, which leaves out its calls.)
   template <bool with_rates>
-  [[gnu::always_inline]] static void fetch_cells(const P& p, const std::uint32_t* cell, unsigned n) {
+  [[gnu::always_inline]] static void fetch_cells(const P& p, const std::uint32_t* cell, unsigned n,
+                                                 const rate_view* rates) {
     const formula_view<I>& f = formula_view<I>::of(p);
     for (unsigned k = 0; k < n; ++k) {
       const cell_range& range = p.cells().range[cell[k]];
@@ -119,14 +120,14 @@ struct sum_rows {
       if constexpr (with_rates)
         each_scalar(
             zero<S>(), [&](const auto& a, int slot)
-                           __attribute__((always_inline)) { ends_of(p.columns.begin[slot], sizeof a); });
+                           __attribute__((always_inline)) { ends_of(rates->begin[slot], sizeof a); });
     }
   }
-  PAIRSUM_SAME_CODE static void fetch(const P& p, const std::uint32_t* cell, unsigned n, bool with_rates) {
-    if (with_rates)
-      fetch_cells<true>(p, cell, n);
+  PAIRSUM_SAME_CODE static void fetch(const P& p, const std::uint32_t* cell, unsigned n, const rate_view* rates) {
+    if (rates != nullptr)
+      fetch_cells<true>(p, cell, n, rates);
     else
-      fetch_cells<false>(p, cell, n);
+      fetch_cells<false>(p, cell, n, rates);
   }
 
   static void zero_rates(const rate_view& u, std::size_t begin, std::size_t end) {

@@ -55,7 +55,7 @@ void cell_ranges<D>::find_cells(std::span<const std::uint32_t> keys, std::size_t
       cells_.range[c].boundary.begin = begin;
       cells_.range[c].boundary.end = end;
     } else {
-      cells_.range.push_back({0, 0, begin, end});
+      cells_.range.push_back({{0, 0}, {begin, end}});
       cell_keys_.push_back(key);
     }
   }

@@ -10,14 +10,14 @@ namespace pairsum {
 
 /// A contiguous range of particle indices.
 struct index_range {
-  std::uint32_t begin = 0, end = 0;
+  std::uint32_t begin, end;  // left to whoever makes room for many: a sum does so for each unit
   std::uint32_t size() const { return end - begin; }
   bool empty() const { return begin == end; }
 };
 
 /// The particles of one cell, in the sorted particle set.
 struct cell_range {
-  index_range fluid, boundary;
+  index_range fluid{0, 0}, boundary{0, 0};
 };
 
 /// What a grid tells the backends, as plain data, whatever the grid: only non-empty cells exist.

@@ -58,6 +58,17 @@ ivec<D> base_of(const block<D>& members, const cells<D>& c) {
   return base;
 }
 
+/// What sum_block() does with pairs of cells.
+template <int D>
+void count_cell_pairs(const cells<D>& c, const block<D>& members, work_counts& counts) {
+  constexpr unsigned n = pattern::block_cells<D>;
+  const auto is_fluid = [&](unsigned j) { return c.range[members[j]].fluid.size() > 0; };
+  counts.sumF1 += is_fluid(0);
+  for (unsigned j = 0; j < n; ++j)
+    for (unsigned k = 0; k < n; ++k)  // with a later cell, or with one without fluid, which opens no pairs itself
+      counts.sumF2 += is_fluid(j) && (j & k) == 0 && k != j && members[k] != 0 && (k > j || !is_fluid(k));
+}
+
 /// sumF1(B) and the sumF2 of the pattern, as b(d)+1 cell pairs grouped by their lower cell: particle i of cell j meets
 /// all later cells k with j & k == 0 in one go. Touches fluid particles of the block's cells and no others.
 template <int D, class R>
@@ -70,31 +81,24 @@ void sum_block(const problem<D, R>& p, const block<D>& members, const target& to
     const cell_range& own = range[members[j]];
     if (own.fluid.size() == 0) continue;
     meeting<D>& m = all[size];
-    m.begin = own.fluid.begin;
-    m.end = own.fluid.end;
-    m.who = j == 0 ? partners::later : partners::all;
-    m.fluid.clear();
-    m.boundary.clear();
-    if (j == 0) m.fluid.add(own.fluid.begin, own.fluid.end);
+    m.start(own, j == 0 ? partners::later : partners::all);
     for (unsigned k = 0; k < n; ++k) {
       if ((j & k) != 0) continue;
       const cell_range& other = range[members[k]];
-      if (k > j) m.fluid.add(other.fluid.begin, other.fluid.end);
-      m.boundary.add(other.boundary.begin, other.boundary.end);
-      if (p.counts != nullptr) [[unlikely]] {  // a later cell, or one without fluid, which opens no pairs itself
-        p.counts->sumF1 += k == 0 && j == 0;
-        p.counts->sumF2 += k != j && members[k] != 0 && (k > j || other.fluid.size() == 0);
-      }
+      if (k > j) m.fluid.add(other.fluid);
+      m.boundary.add(other.boundary);
     }
     size += !m.empty();  // one that is not kept serves for the next
   }
+  if (p.counts != nullptr) [[unlikely]]
+    count_cell_pairs(p.cells(), members, *p.counts);
   sum_meetings<D, R>(p, p, to, all, size);
 }
 
 /// sum_block() for number k of a list of blocks, of which a thread sums many one after the other.
 template <int D, class R>
 inline void sum_block_of(const problem<D, R>& p, const column<block<D>>& blocks, std::size_t k, const target& to) {
-  fetch_next_block(p, blocks, k);
+  fetch_next_block(p, blocks, k, to);
   sum_block(p, blocks[k], to);
 }
 

@@ -14,7 +14,7 @@ inline void sweep_cell(const problem<D, R>& p, std::size_t cell, const target& t
 /// sweep_cell() for one of many cells that are summed in the order of the grid.
 template <int D, class R>
 inline void sweep_cell_in_order(const problem<D, R>& p, std::size_t cell, const target& to) {
-  fetch_for_next_cell<true>(p, cell);
+  fetch_for_next_cell<true>(p, cell, to);
   sweep_cell(p, cell, to);
 }
 

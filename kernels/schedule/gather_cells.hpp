@@ -26,8 +26,9 @@ class gather_cells final : public schedule<D, R> {
 
   std::size_t size(const P& p, unsigned) const override { return p.cells().fluid_cells; }
   void unit(const P& p, unsigned, std::size_t k, int thread) override {
-    fetch_for_next_cell<false>(p, k + 1);
-    sum_meetings(p, p.to(thread), full_stencil(p.cells(), k + 1));
+    const target to = p.to(thread);
+    fetch_for_next_cell<false>(p, k + 1, to);
+    sum_meetings(p, to, full_stencil(p.cells(), k + 1));
   }
 };
 

@@ -26,6 +26,7 @@ template <int D, class R>
 class half_cell_blocks final : public schedule<D, R> {
   using P = problem<D, R>;
   static constexpr unsigned members = pattern::stencil_cells<D>;
+  static constexpr unsigned at_a_time = 8;  ///< meetings: of more, those made first have left the first cache
 
  public:
   static constexpr backend_traits traits{.description = "the talk's passes on cells of half the width",
@@ -37,6 +38,7 @@ class half_cell_blocks final : public schedule<D, R> {
 
   void prepare(const P& p, const team& t) override {
     order_.build(p, p.cells(), p.count, t);
+    space_ = order_.space(p);
     blocks_.build(p.cells(), t);
   }
   unsigned colours(const P&) const override { return blocks_.colours(); }
@@ -52,43 +54,44 @@ class half_cell_blocks final : public schedule<D, R> {
       have_boundary |= of[o]->boundary.size();
     }
     const auto& lists = pattern::half_block<D>;
-    meeting<D> all[members];
+    meeting<D> some[at_a_time];
     unsigned n = 0;
     for (unsigned j = 0; j < members; ++j) {
       const cell_range& own = *of[j];
       if (own.fluid.size() == 0) continue;
-      meeting<D>& m = all[n];
-      m.begin = own.fluid.begin;
-      m.end = own.fluid.end;
-      m.who = j == 0 ? partners::later : partners::all;
-      m.fluid.clear();
-      m.boundary.clear();
-      if (j == 0) m.fluid.add(own.fluid.begin, own.fluid.end);
+      meeting<D>& m = some[n];
+      m.start(own, j == 0 ? partners::later : partners::all);
       for (unsigned l = lists.later[j]; l < lists.begin[j + 1]; ++l) {
         const cell_range& other = *of[lists.offset[l]];
-        m.fluid.add(other.fluid.begin, other.fluid.end);
+        m.fluid.add(other.fluid);
       }
       if (p.boundary_reach2 > 0 && have_boundary != 0)
         for (unsigned l = lists.begin[j]; l < lists.begin[j + 1]; ++l) {
           const cell_range& other = *of[lists.offset[l]];
-          m.boundary.add(other.boundary.begin, other.boundary.end);
+          m.boundary.add(other.boundary);
         }
-      if (p.counts != nullptr) [[unlikely]]
-        count_cell_pairs(of, j, *p.counts);
       n += !m.empty();
+      if (n < at_a_time) continue;
+      sum_meetings<D, R>(p, space_, p.to(thread), some, n);
+      n = 0;
     }
-    sum_meetings<D, R>(p, order_.space(p), p.to(thread), all, n);
+    if (p.counts != nullptr) [[unlikely]]
+      count_cell_pairs(of, *p.counts);
+    sum_meetings<D, R>(p, space_, p.to(thread), some, n);
   }
 
  private:
-  /// Counts for particles of member j as sum_block() does.
-  static void count_cell_pairs(const cell_range* const (&of)[members], unsigned j, work_counts& counts) {
+  /// Counts as the function for blocks of whole cells does.
+  static void count_cell_pairs(const cell_range* const (&of)[members], work_counts& counts) {
     const auto& lists = pattern::half_block<D>;
-    for (unsigned l = lists.begin[j]; l < lists.begin[j + 1]; ++l) {
-      const unsigned k = lists.offset[l];
-      const cell_range& other = *of[k];
-      counts.sumF1 += k == j;
-      counts.sumF2 += k != j && other.fluid.size() + other.boundary.size() > 0 && (k > j || other.fluid.size() == 0);
+    for (unsigned j = 0; j < members; ++j) {
+      if (of[j]->fluid.size() == 0) continue;
+      for (unsigned l = lists.begin[j]; l < lists.begin[j + 1]; ++l) {
+        const unsigned k = lists.offset[l];
+        const cell_range& other = *of[k];
+        counts.sumF1 += k == j;
+        counts.sumF2 += k != j && other.fluid.size() + other.boundary.size() > 0 && (k > j || other.fluid.size() == 0);
+      }
     }
   }
 
@@ -97,7 +100,7 @@ class half_cell_blocks final : public schedule<D, R> {
     if (k + 2 < blocks_.size(colour)) order_.fetch_ranges(*blocks_(colour, k + 2).cells);
     if (k + 1 >= blocks_.size(colour)) return;
     const typename half_blocks<D>::unit b = blocks_(colour, k + 1);
-    p.pairs->fetch(p, b.cells->data(), static_cast<unsigned>(b.cells->size()), true);
+    p.pairs->fetch(p, b.cells->data(), static_cast<unsigned>(b.cells->size()), &p.u);
     for (unsigned row = 0; row < members; row += 3) {
       const auto [cell, part] = pattern::half_block_place<D>[b.part][row];
       order_.fetch(order_.range((*b.cells)[cell], part));
@@ -105,6 +108,7 @@ class half_cell_blocks final : public schedule<D, R> {
   }
 
   half_cell_order<D, R> order_;
+  search_space<D, R> space_;
   half_blocks<D> blocks_;
 };
 

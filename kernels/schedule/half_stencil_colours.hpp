@@ -33,7 +33,7 @@ class half_stencil_colours final : public schedule<D, R> {
   std::size_t size(const P&, unsigned colour) const override { return cells_[colour].size(); }
   void unit(const P& p, unsigned colour, std::size_t k, int thread) override {
     const auto& list = cells_[colour];
-    if (k + 1 < list.size()) fetch_half_stencil(p, list[k + 1]);
+    if (k + 1 < list.size()) fetch_half_stencil(p, list[k + 1], p.to(thread));
     sweep_cell(p, list[k], p.to(thread));
   }
 

@@ -34,10 +34,17 @@ class row_blocks : public schedule<D, R> {
   unsigned colours(const P&) const override { return blocks_.colours(); }
   std::size_t size(const P&, unsigned colour) const override { return blocks_.size(colour); }
   void unit(const P& p, unsigned colour, std::size_t k, int thread) override {
+    index_range rows{0, 0};  // of cells whose particles follow each other
+    const auto sum = [&] { sum_listed(p, p.to(thread), rows_.data() + rows.begin, rows.size(), tested_); };
     for (const std::uint32_t cell : blocks_(colour, k)) {
-      const cell_range& of = p.cells().range[cell];
-      sum_listed(p, p.to(thread), rows_.data() + of.fluid.begin, of.fluid.size(), tested_);
+      const index_range& own = p.cells().range[cell].fluid;
+      if (own.begin != rows.end) {
+        if (!rows.empty()) sum();
+        rows.begin = own.begin;
+      }
+      rows.end = own.end;
     }
+    if (!rows.empty()) sum();
   }
 
  protected:

@@ -64,7 +64,7 @@ lane_rows<D, R>::lane_rows(const setup& s, const lane_layout& layout, bool lanes
 }
 
 template <int D, class R>
-void lane_rows<D, R>::prepare(problem<D, R>& p, const team& t, index_function fill_pieces) {
+void lane_rows<D, R>::prepare(problem<D, R>& p, const team& t) {
   constexpr std::size_t most_in_float = 0x7fffffff;  // numbers of particles are lanes as wide as values
   p.spare_rows = spare_rows;
   p.threads = t.threads();
@@ -76,7 +76,6 @@ void lane_rows<D, R>::prepare(problem<D, R>& p, const team& t, index_function fi
   view_.rows = rows_.data();
   view_.stride = layout_.stride;
   for (int d = 0; d < D; ++d) view_.origin[d] = view_.periodic && p.count > 0 ? p.x.column[d][0] : R(0);
-  t.for_each(static_cast<std::size_t>(t.threads()), fill_pieces);
   for (auto& column : place_) column.resize(p.count + place_room);
   t.for_pieces(p.count, [&](std::size_t begin, std::size_t end, std::size_t) { fill_places(p, begin, end); });
   for (std::size_t i = p.fluid_count; i < rows; ++i) {
@@ -93,7 +92,6 @@ void lane_rows<D, R>::prepare(problem<D, R>& p, const team& t, index_function fi
   p.u = {&rates_begin_, layout_.stride};
   lane_places<D>& places = p.places;
   places.excess = tolerances_.excess;
-  places.reach = 1;
   places.boundary_reach = static_cast<float>(boundary_reach_);
   places.periodic = view_.periodic;
   for (int d = 0; d < D; ++d) {

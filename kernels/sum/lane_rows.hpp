@@ -13,7 +13,6 @@ namespace pairsum {
 /// How a formula's particles lie as rows: position and fields, then, from rates_at on, the rates. In bytes.
 struct lane_layout {
   std::size_t rates_at = 0, stride = 0, rates_bytes = 0;
-  std::size_t rates = 0;         ///< scalars
   std::size_t value = 0;         ///< of a value
   bool mixed = false;            ///< values are float, sums double
   std::size_t column_bytes = 0;  ///< of a particle without rows: position, fields and rates in columns
@@ -63,8 +62,8 @@ class lane_rows {
   /// `boundary_reach`: of H; `skin`: of lists, in units of H.
   lane_rows(const setup& s, const lane_layout& layout, bool lanes_fuse, double boundary_reach, double skin);
 
-  /// Makes room for rows, fills places, and lets the problem point to both; `fill(begin, end)` derives rows.
-  void prepare(problem<D, R>& p, const team& t, index_function fill_pieces);
+  /// Makes room for rows, fills places, and lets the problem point to both; the formula then fills the fluid's rows.
+  void prepare(problem<D, R>& p, const team& t);
   const lane_view<D, R>& view() const { return view_; }
   /// The rates of rows to 0 if a sum has been there since prepare().
   void summed() { is_zero_ = false; }
@@ -75,7 +74,7 @@ class lane_rows {
 
   lane_layout layout_;
   lane_tolerances tolerances_;
-  double cutoff_, boundary_reach_, reach_;
+  double cutoff_, boundary_reach_;
   lane_view<D, R> view_;
   column<std::byte> rows_;
   std::array<column<std::int32_t>, D> place_;

@@ -136,7 +136,7 @@ void sum_meetings(const problem<D, R>& p, const search_space<D, R>& space, const
                   unsigned n) {
   if (n == 0) return;
   const sum_call<D, R> call{p, to};
-  const rows_function take = m->who == partners::others ? p.pairs->own : p.pairs->both[static_cast<unsigned>(to.how)];
+  const rows_function take = m->who == partners::others ? p.pairs->own : both_sides(p, to.how);
   const row_sink sink{take, &call, p.spare_of(to.thread)};
   if (p.counts != nullptr) [[unlikely]] {
     const counted_rows<D, R> counted{sink, *p.counts};
@@ -149,16 +149,17 @@ void sum_meetings(const problem<D, R>& p, const search_space<D, R>& space, const
 template <int D, class R>
 void sum_cells(const problem<D, R>& p, const target& to, partners who, const std::uint32_t* cell, std::size_t n) {
   const bool half = who == partners::later;
-  if (p.lanes != nullptr) {
+  // Finding and summing in one function adds to the problem's own rates alone.
+  if (p.lanes != nullptr && to.how == update::plain && to.u.begin == p.u.begin) {
     const sum_call<D, R> call{p, to};
     return (half ? p.pairs->half_stencils : p.pairs->full_stencils)(call, cell, n);
   }
   for (std::size_t k = 0; k < n; ++k) {
     if (half) {
-      fetch_in_list<true>(p, cell, n, k);
+      fetch_in_list<true>(p, cell, n, k, to);
       sum_meetings(p, to, half_stencil(p.cells(), cell[k], p.counts));
     } else {
-      fetch_in_list<false>(p, cell, n, k);
+      fetch_in_list<false>(p, cell, n, k, to);
       sum_meetings(p, to, full_stencil(p.cells(), cell[k]));
     }
   }

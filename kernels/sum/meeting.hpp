@@ -11,15 +11,13 @@ template <unsigned Capacity>
 class range_list {
  public:
   void clear() { n_ = 0; }
-  void add(std::uint32_t begin, std::uint32_t end) {
-    if (begin == end) return;
-    if (n_ > 0 && ranges_[n_ - 1].end == begin)
-      ranges_[n_ - 1].end = end;
+  void add(const index_range& r) {
+    if (r.empty()) return;
+    if (n_ > 0 && ranges_[n_ - 1].end == r.begin)
+      ranges_[n_ - 1].end = r.end;
     else
-      ranges_[n_++] = {begin, end};
+      ranges_[n_++] = r;
   }
-  /// Leaves out what is below `begin` in the first range.
-  void begin_first_at(std::uint32_t begin) { ranges_[0].begin = begin; }
   const index_range* begin() const { return ranges_.data(); }
   const index_range* end() const { return ranges_.data() + n_; }
   bool empty() const { return n_ == 0; }
@@ -50,6 +48,15 @@ struct meeting {
   range_list<pattern::stencil_cells<D> + 1> fluid, boundary;
 
   bool empty() const { return begin == end || (fluid.empty() && boundary.empty()); }
+  /// Starts over with the particles of a cell, which `later` meet each other, too.
+  [[gnu::always_inline]] void start(const cell_range& own, partners with) {
+    begin = own.fluid.begin;
+    end = own.fluid.end;
+    who = with;
+    fluid.clear();
+    boundary.clear();
+    if (with == partners::later) fluid.add(own.fluid);
+  }
 };
 
 /// A cell against itself and its (3^d - 1)/2 forward neighbours, and against the boundary of all neighbours (a boundary
@@ -57,16 +64,12 @@ struct meeting {
 template <int D>
 [[gnu::always_inline]] inline meeting<D> half_stencil(const cells<D>& c, std::size_t cell, work_counts* counts) {
   constexpr unsigned centre = pattern::stencil_centre<D>;
-  const cell_range& own = c.range[cell];
   meeting<D> m;
-  m.begin = own.fluid.begin;
-  m.end = own.fluid.end;
-  m.who = partners::later;
-  m.fluid.add(own.fluid.begin, own.fluid.end);
+  m.start(c.range[cell], partners::later);
   for (unsigned n = 0; n < cells<D>::stencil; ++n) {
     const cell_range& other = c.range[c.neighbour(cell, n)];
-    m.boundary.add(other.boundary.begin, other.boundary.end);
-    if (n > centre) m.fluid.add(other.fluid.begin, other.fluid.end);
+    m.boundary.add(other.boundary);
+    if (n > centre) m.fluid.add(other.fluid);
   }
   if (counts != nullptr) [[unlikely]] {
     ++counts->sumF1;
@@ -81,15 +84,12 @@ template <int D>
 /// The gather: a cell against all cells around it.
 template <int D>
 [[gnu::always_inline]] inline meeting<D> full_stencil(const cells<D>& c, std::size_t cell) {
-  const cell_range& own = c.range[cell];
   meeting<D> m;
-  m.begin = own.fluid.begin;
-  m.end = own.fluid.end;
-  m.who = partners::others;
+  m.start(c.range[cell], partners::others);
   for (unsigned n = 0; n < cells<D>::stencil; ++n) {
     const cell_range& other = c.range[c.neighbour(cell, n)];
-    m.fluid.add(other.fluid.begin, other.fluid.end);
-    m.boundary.add(other.boundary.begin, other.boundary.end);
+    m.fluid.add(other.fluid);
+    m.boundary.add(other.boundary);
   }
   return m;
 }

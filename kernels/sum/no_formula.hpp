@@ -11,7 +11,7 @@ const pair_sum<D, R>& no_formula() {
     pair_sum<D, R> f{};
     for (rows_function& both : f.both) both = ignore;
     f.own = ignore;
-    f.fetch = [](const problem<D, R>&, const std::uint32_t*, unsigned, bool) {};
+    f.fetch = [](const problem<D, R>&, const std::uint32_t*, unsigned, const rate_view*) {};
     f.zero = [](const rate_view&, std::size_t, std::size_t) {};
     f.add = [](const rate_view&, std::size_t, const rate_view&, std::size_t, std::size_t) {};
     return f;

@@ -1,4 +1,5 @@
 #pragma once
+#include <pairsum/core/error.hpp>
 #include <pairsum/sum/problem.hpp>
 
 /// What listers share.
@@ -28,6 +29,16 @@ template <int D, class R, class At>
     to += norm2<D, R>(x_i.x - x[j]) < reach2;
   }
   return to;
+}
+
+/// The function that updates both sides. Vector units have none that adds atomically; a schedule that does so says so
+/// in its traits, and then is not given vector units.
+template <int D, class R>
+rows_function both_sides(const problem<D, R>& p, update how) {
+  const rows_function take = p.pairs->both[static_cast<unsigned>(how)];
+  if (take == nullptr) [[unlikely]]
+    throw error("a schedule that adds atomically needs the trait .conflicts = conflict_avoidance::atomics");
+  return take;
 }
 
 /// Takes the work of rows besides having them summed.

@@ -44,8 +44,9 @@ struct pair_sum {
   /// the own side.
   using of_cells = void (*)(const sum_call<D, R>&, const std::uint32_t* cell, std::size_t n);
   of_cells half_stencils, full_stencils;
-  /// Prefetches the fluid of cells.
-  void (*fetch)(const problem<D, R>&, const std::uint32_t* cells, unsigned n, bool with_rates);
+  /// Prefetches the fluid of cells, with `rates` where its rates lie there (nullptr: without). Rates that another
+  /// thread adds to, as those of a copy, would be taken from it.
+  void (*fetch)(const problem<D, R>&, const std::uint32_t* cells, unsigned n, const rate_view* rates);
   void (*zero)(const rate_view& u, std::size_t begin, std::size_t end);
   /// to[to_at + k] += from[from_at + k] for k < n
   void (*add)(const rate_view& to, std::size_t to_at, const rate_view& from, std::size_t from_at, std::size_t n);

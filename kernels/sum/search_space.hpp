@@ -35,7 +35,7 @@ template <int D>
 struct lane_places {
   std::array<const std::int32_t*, D> place{};  ///< [particle]; rounded to the nearest
   float excess = 0;  ///< how far, in units of the search radius squared, rounding to places can move |x_i - x_j|^2
-  float reach = 1, boundary_reach = 0;  ///< in units of the search radius, at most 1
+  float boundary_reach = 0;  ///< in units of the search radius, at most 1
   bool periodic = false;
   std::array<float, D> place_size{};  ///< of a periodic box: units of 2^-20 search radii that a place takes, per axis
   std::array<float, D> half_edge{};   ///< half its edges in such units

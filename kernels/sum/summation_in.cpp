@@ -130,9 +130,9 @@ void summation_in<D, R>::prepare(const team& t) {
   formula_->open(view_, static_cast<R>(this->setup_.constants.H));
   view_.threads = t.threads();
   if (lane_ != nullptr) {
-    const std::size_t pieces = static_cast<std::size_t>(t.threads()), n = view_.fluid_count;
-    rows_->prepare(view_, t, [&](std::size_t k) {
-      formula_->fill(particles, rows_->view(), n * k / pieces, n * (k + 1) / pieces);
+    rows_->prepare(view_, t);
+    t.for_pieces(view_.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
+      formula_->fill(particles, rows_->view(), begin, end);
     });
     view_.pairs = &lane_->pairs;
     view_.lanes = lister_;

@@ -154,17 +154,16 @@ class lane_lister {
     if (m.fluid.empty()) return;
     // Candidate number own_at + s of the sequence is particle m.begin + s.
     const std::size_t own_at = who == partners::others ? place_of(m) : 0;
-    each_near(t, m, m.fluid, t.reach, near, b,
-              [&](std::uint32_t i, const float(&place)[D], std::size_t first) HWY_ATTR {
-                const std::size_t slot = own_at + (i - m.begin);
-                const std::uint32_t particle = order == nullptr ? i : order[i];
-                if (who == partners::all || slot < first)  // candidates without it
-                  b.add_fluid(particle, near.find(place, b.free()));
-                else if constexpr (who == partners::later)
-                  b.add_fluid(particle, near.find_after(place, slot - first, b.free()));
-                else
-                  b.add_fluid(particle, near.find_but(place, slot - first, b.free()));
-              });
+    each_near(t, m, m.fluid, 1, near, b, [&](std::uint32_t i, const float(&place)[D], std::size_t first) HWY_ATTR {
+      const std::size_t slot = own_at + (i - m.begin);
+      const std::uint32_t particle = order == nullptr ? i : order[i];
+      if (who == partners::all || slot < first)  // candidates without it
+        b.add_fluid(particle, near.find(place, b.free()));
+      else if constexpr (who == partners::later)
+        b.add_fluid(particle, near.find_after(place, slot - first, b.free()));
+      else
+        b.add_fluid(particle, near.find_but(place, slot - first, b.free()));
+    });
   }
   template <class near_list>
   static HWY_NOINLINE void list_boundary(const places& t, const meeting<D>& m, const std::uint32_t* order,

@@ -1,29 +1,18 @@
 #include <pairsum/vector/listers.hpp>
 
-#include <algorithm>
 #include <vector>
 
-#include <pairsum/core/isa.hpp>
+#include <pairsum/formula/formulas.hpp>
 
 namespace pairsum {
-namespace {
-
-template <int D, class... Isas>
-std::vector<vector_lister<D>> those_that_run(isa_list<Isas...>) {
-  std::vector<vector_lister<D>> all;
-  const auto names = isa_names();
-  const auto take = [&]<class Isa>(const Isa* isa) {
-    if (std::ranges::find(names, Isa::name) != names.end()) all.push_back(lister_on<D>(isa));
-  };
-  (take(static_cast<const Isas*>(nullptr)), ...);
-  return all;
-}
-
-}  // namespace
 
 template <int D>
 std::span<const vector_lister<D>> vector_listers() {
-  static const std::vector<vector_lister<D>> all = those_that_run<D>(isa_list<PAIRSUM_ISA_LIST>());
+  static const std::vector<vector_lister<D>> all = [] {
+    std::vector<vector_lister<D>> listers;
+    each_that_runs(isa_list<PAIRSUM_ISA_LIST>(), [&](const auto* isa) { listers.push_back(lister_on<D>(isa)); });
+    return listers;
+  }();
   return all;
 }
 template std::span<const vector_lister<1>> vector_listers();

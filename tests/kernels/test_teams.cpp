@@ -2,6 +2,8 @@
 
 #include <omp.h>
 
+#include <pairsum/core/tbb_arena.hpp>
+#include <pairsum/sum/schedule.hpp>
 #include "scene.hpp"
 
 // Teams that a sum cannot have: of the wrong kind, larger than the one that prepared, smaller than asked for.
@@ -72,6 +74,43 @@ TEST_P(teams_test, of_openmp_that_come_out_smaller_are_an_error) {
   sum->reduce(three.get());
   if (traits.deterministic) {
     EXPECT_EQ(sum->fingerprint(), evaluated(with(s.world, GetParam(), 4), s.particles)->fingerprint());
+  }
+}
+
+TEST(teams, of_fewer_threads_than_their_arena_are_refused) {
+  const scene s = make_scene("dam_break", 0.08, "perturbed");
+  const auto sum = registry::instance().make_summation(with(s.world, "touched_blocks_tbb", 4));
+  tbb_arena arena(3);
+  const team two = team::tbb(2, arena);
+  sum->load(s.particles, {});
+  sum->index(two);
+  sum->prepare(two);
+  sum->zero(two);
+  EXPECT_TRUE(says(error_of([&] { sum->sum(two); }), {"a team of 2 oneTBB threads has an arena of 3"}));
+}
+
+/// A gather whose traits say nothing of how its units are shared out.
+template <int D, class R>
+class says_no_loop final : public schedule<D, R> {
+ public:
+  static constexpr backend_traits traits{.symmetric = false, .conflicts = conflict_avoidance::gather};
+  std::size_t size(const problem<D, R>& p, unsigned) const override { return p.cells().fluid_cells; }
+  void unit(const problem<D, R>& p, unsigned, std::size_t k, int thread) override {
+    sum_meetings(p, p.to(thread), full_stencil(p.cells(), k + 1));
+  }
+};
+
+TEST(teams, share_out_loops_that_the_backend_does_not) {
+  const scene s = make_scene("dam_break", 0.08, "perturbed");
+  registry all = registry::instance();
+  for (const runtime r : {runtime::serial, runtime::omp, runtime::tbb}) {
+    const std::string_view name = r == runtime::serial ? "no_loop" : r == runtime::omp ? "no_loop_omp" : "no_loop_tbb";
+    all.add(backend_entry::of<says_no_loop>(name, r));
+    const auto sum = all.make_summation(with(s.world, std::string(name), 4));
+    const workers two(r, 2);
+    sum->load(s.particles, {});
+    sum->evaluate(two.get());
+    EXPECT_EQ(sum->fingerprint(), evaluated(with(s.world, "naive", 4), s.particles)->fingerprint()) << name;
   }
 }
 

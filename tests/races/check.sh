@@ -1,20 +1,20 @@
 #!/bin/sh
 # Runs race_main under ThreadSanitizer with Archer and judges what it says.
 #
-#   check.sh clean PROGRAM ARCHER RUNTIME NAME ISA...      NAME of the library: status 0, done, not one report
+#   check.sh clean PROGRAM ARCHER RUNTIME                  all of the library: status 0, done, not one report
 #   check.sh planted PROGRAM ARCHER RUNTIME NAME ISA       NAME is racy: a data race must be reported, in the phase sum, not before
 #
 # ARCHER is libarcher.so, which tells ThreadSanitizer what OpenMP synchronises; libomp itself is not instrumented.
 set -u
-mode=$1 program=$2 archer=$3 runtime=$4 name=$5
-shift 5
+mode=$1 program=$2 archer=$3 runtime=$4
+shift 4
+what="${*:-$runtime}"
 race_status=66
 output=$(mktemp) || exit 1
 trap 'rm -f "$output"' EXIT
 
-isas="$*"
 fail() {
-  echo "races: $name $isas: $*"
+  echo "races: $what: $*"
   echo "--- the last lines of the program"
   tail -n 120 "$output"
   exit 1
@@ -30,26 +30,27 @@ export TSAN_OPTIONS="ignore_noninstrumented_modules=1 exitcode=$race_status halt
 fixed=
 if setarch "$(uname -m)" -R true 2>/dev/null; then fixed="setarch $(uname -m) -R"; fi
 
-$fixed "$program" "$name" "$@" >"$output" 2>&1
+# shellcheck disable=SC2086  # both are words
+$fixed "$program" $what >"$output" 2>&1
 status=$?
 [ "$runtime" = tbb ] || grep -qi 'archer detected' "$output" || fail "Archer is not detected ($archer); install libomp-14-dev"
 case $mode in
   clean)
     ! grep -q 'WARNING: ThreadSanitizer' "$output" || fail "ThreadSanitizer reports"
     [ $status -eq 0 ] || fail "exits with $status"
-    grep -q "^race_main: $name done\$" "$output" || fail "did not finish"
+    grep -q "^race_main: done\$" "$output" || fail "did not finish"
     grep '^race_main: .* fluid particles' "$output"
-    echo "races: $name $isas: no report"
+    echo "races: $what: no report"
     ;;
   planted)
     [ $status -eq $race_status ] || fail "exits with $status, not with $race_status"
     grep -q 'WARNING: ThreadSanitizer: data race' "$output" || fail "no data race reported"
-    phase=$(sed -n '/WARNING: ThreadSanitizer/q; s/^race_main: phase //p' "$output" | tail -n 1)
+    phase=$(sed -n '/WARNING: ThreadSanitizer/q; s/^race_main: .* phase //p' "$output" | tail -n 1)
     [ "$phase" = sum ] || fail "the report is of phase ${phase:-(none)}, not of sum"
-    echo "races: planted $name $isas: data race reported in phase sum"
+    echo "races: planted $what: data race reported in phase sum"
     ;;
   *)
-    echo "usage: check.sh clean|planted PROGRAM ARCHER RUNTIME NAME ISA..." >&2
+    echo "usage: check.sh clean|planted PROGRAM ARCHER RUNTIME [NAME ISA]" >&2
     exit 2
     ;;
 esac

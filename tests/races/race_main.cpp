@@ -1,9 +1,16 @@
-// Runs one backend, of the library or a planted one, for the race detector to watch: race_main BACKEND ISA...
-// Exit status: 0, 2 for bad use, the detector's own if it reports a race.
+// Runs backends for the race detector to watch. Exit status: 0, 2 for bad use, the detector's own if it reports a race.
+//
+//   race_main omp|tbb       the library's backends with these threads, scalar and on vector units
+//   race_main BACKEND ISA   a backend with a race on purpose
 #include <cstdio>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <pairsum/cases/case.hpp>
 #include <pairsum/core/error.hpp>
+#include <pairsum/core/isa.hpp>
 #include <pairsum/core/workers.hpp>
 #include <pairsum/integrators/integrator.hpp>
 #include <pairsum/sum/registry.hpp>
@@ -25,18 +32,34 @@ struct trial {
 /// fifth of all N^2 pairs and so has to do with fewer particles.
 constexpr trial trials[] = {{"dam_break", 0.0126, 5}, {"dam_break", 0.025, 4}, {"lattice", 0.05, 2}};
 
+/// The world of a trial, made once for all backends.
+struct world {
+  explicit world(const trial& w)
+      : of(w),
+        start(make_case(w.case_name, {.dx = w.dx, .state = "perturbed"})),
+        order(memory_order("shuffled", start, 1)) {}
+  trial of;
+  initial_condition start;
+  std::vector<std::uint32_t> order;
+};
+
 /// Two steps in which every phase is parallel, from particles in random order, so long that they change cells and some
 /// leave Omega. Names each phase on stderr when it begins, so that a report can be told where it belongs.
-void run(const registry& all, const trial& w, const initial_condition& start, setup s, const team& t) {
-  s.M = w.M;
-  s.omega_low = start.omega_low;
-  s.omega_high = start.omega_high;
-  s.constants = {start.H, start.eos};
+void run(const registry& all, const world& w, std::string_view backend, std::string_view isa, const team& t) {
+  setup s;
+  s.backend = backend;
+  s.isa = isa;
+  s.M = w.of.M;
+  s.omega_low = w.start.omega_low;
+  s.omega_high = w.start.omega_high;
+  s.constants = {w.start.H, w.start.eos};
 
   const auto summation = all.make_summation(s);
-  const auto says = [](const char* phase) { std::fprintf(stderr, "race_main: phase %s\n", phase); };
+  const auto says = [&](const char* phase) {
+    std::fprintf(stderr, "race_main: %s %s phase %s\n", s.backend.c_str(), s.isa.c_str(), phase);
+  };
   says("load");
-  summation->load(start.particles, memory_order("shuffled", start, 1), t);
+  summation->load(w.start.particles, w.order, t);
   const auto evaluate = [&] {
     says("index");
     summation->index(t);
@@ -51,29 +74,43 @@ void run(const registry& all, const trial& w, const initial_condition& start, se
     says("integrate");
   };
   constexpr double dt = 0.01;  // s: a particle moves by about its spacing
-  for (int step = 0; step < 2; ++step) find_integrator("euler").step(*summation, dt, start.gravity, evaluate, t);
+  for (int step = 0; step < 2; ++step) find_integrator("euler").step(*summation, dt, w.start.gravity, evaluate, t);
 
-  std::printf("race_main: %s %s %s M=%d: %zu fluid particles, %zu lost\n", s.backend.c_str(),
-              std::string(summation->isa()).c_str(), w.case_name, w.M, start.particles.count(particle_kind::fluid),
-              summation->lost());
+  std::printf("race_main: %s %s %s M=%d: %zu fluid particles, %zu lost\n", s.backend.c_str(), s.isa.c_str(),
+              w.of.case_name, w.of.M, w.start.particles.count(particle_kind::fluid), summation->lost());
   std::fflush(stdout);
 }
 
-int main_of(int argc, char** argv) {
-  if (argc < 3) throw error("usage: race_main BACKEND ISA...");
+void run_library(runtime r) {
+  const registry& all = registry::instance();
+  const workers w(r, threads);
+  const std::vector<world> worlds(std::begin(trials), std::end(trials));
+  for (const backend_entry& b : all.backends()) {
+    if (b.traits.threads != r) continue;
+    for (const world& one : worlds) run(all, one, b.traits.name, scalar_isa, w.get());
+    // What the grid folds is one matter, vector units another. Atomic additions have none.
+    if (b.traits.conflicts != conflict_avoidance::atomics) run(all, worlds[0], b.traits.name, best_isa, w.get());
+  }
+}
+
+void run_planted(std::string_view name, std::string_view isa) {
   registry all = registry::instance();
   for (const backend_entry& planted : planted_backends()) all.add(planted);
-  setup s;
-  s.backend = argv[1];
-  const workers team_of(all.find_backend(s.backend).traits.threads, threads);
-  for (const trial& w : trials) {  // all on the first instruction set; what the grid folds is one matter, lanes another
-    const initial_condition start = make_case(w.case_name, {.dx = w.dx, .state = "perturbed"});
-    for (int k = 2; k < (&w == trials ? argc : 3); ++k) {
-      s.isa = argv[k];
-      run(all, w, start, s, team_of.get());
-    }
-  }
-  std::printf("race_main: %s done\n", argv[1]);
+  const workers w(all.find_backend(std::string(name)).traits.threads, threads);
+  run(all, world(trials[0]), name, isa, w.get());
+}
+
+int main_of(int argc, char** argv) {
+  const std::string_view first = argc > 1 ? argv[1] : "";
+  if (argc == 2 && first == "omp")
+    run_library(runtime::omp);
+  else if (argc == 2 && first == "tbb")
+    run_library(runtime::tbb);
+  else if (argc == 3)
+    run_planted(first, argv[2]);
+  else
+    throw error("usage: race_main omp|tbb | BACKEND ISA");
+  std::printf("race_main: done\n");
   return 0;
 }
 
