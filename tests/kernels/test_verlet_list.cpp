@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <pairsum/core/isa.hpp>
 #include <pairsum/integrators/integrator.hpp>
 #include <pairsum/schedule/kept_lists.hpp>
 #include <pairsum/sum/setup_of.hpp>
