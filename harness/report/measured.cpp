@@ -46,12 +46,13 @@ std::optional<std::uint64_t> seed_of(const sample& s) {
   return same ? std::nullopt : std::optional(s.seed);
 }
 
-/// The isa of a point is what summed. Rows used to have that of the build, so those whose pairs were not in vectors are
-/// scalar, whatever they say.
-point point_of(const sample& s) {
-  point p = s.point;
-  if (s.work && (!s.work->vector_units || s.work->vector_units->lanes == 1)) p.isa = scalar_isa;
-  return p;
+/// Points that were summed one pair at a time, whatever isa their rows name: rows used to name that of the build. Work
+/// stands in the first row of a repetition.
+std::set<point, point_less> scalar_points(const std::vector<sample>& samples) {
+  std::set<point, point_less> scalar;
+  for (const sample& s : samples)
+    if (s.work && (!s.work->vector_units || s.work->vector_units->lanes == 1)) scalar.insert(s.point);
+  return scalar;
 }
 
 bool verified(const sample& s) { return !s.error && s.phases && s.verify.fingerprint; }
@@ -149,13 +150,17 @@ measurements collect(const std::vector<rows_file>& files, bool allow_mixed) {
     for (const environment_row& e : files[file].environments) environments[e.environment] = &e;
     add_rounds(all, files[file]);
     std::map<std::pair<std::string, int>, std::set<std::size_t>> builds_of_round;
-    for (const sample& s : files[file].valid_samples()) {
+    const std::vector<sample> samples = files[file].valid_samples();
+    const std::set<point, point_less> scalar = scalar_points(samples);
+    for (const sample& s : samples) {
       const environment_row& e = *environments.at(s.environment);
       if (listed.insert(e.environment + e.host + e.git).second) all.environments.push_back(e);
       const std::size_t build = known.add(e);
       all.build_of_environment[e.environment] = build;
       builds_of_round[{s.study, s.round}].insert(build);
-      group& g = groups[{s.study, build, seed_of(s), point_of(s)}];
+      point measured = s.point;
+      if (scalar.contains(measured)) measured.isa = scalar_isa;
+      group& g = groups[{s.study, build, seed_of(s), std::move(measured)}];
       g.cores = e.cores;
       g.rounds[{file, s.round}][s.repetition].push_back(s);
     }

@@ -48,7 +48,7 @@ TEST_F(report, points_that_cannot_be_told_from_the_best_are_named) {
                                      {"M", 7},
                                      {"threads", 2},
                                      {"granularity", "dynamic:32"},
-                                     {"isa", "native"},
+                                     {"isa", "scalar"},
                                      {"block", "none"}}}));
   EXPECT_CONTAINS(a["details"].get<std::string>(),
                   "No difference was resolved from symmetric_omp with M = 7 and 2 threads.");

@@ -59,7 +59,12 @@ TEST_F(compared, backends_may_differ_in_levels_that_are_named) {
 }
 
 TEST_F(compared, blocks_of_one_side_alone_tell_the_pairs_apart) {
-  const auto in = [](const char* block) { return [=](sample& s) { s.point.block = block; }; };
+  const auto in = [](const char* block) {
+    return [=](sample& s) {
+      s.point.block = block;
+      if (s.work) s.work->vector_units = {block, 8, 1000, 0.8};
+    };
+  };
   write(
       {{"naive_omp", 7, 2, 1.0}, {"tiles_omp", 7, 2, 0.5, 6, in("auto")}, {"tiles_omp", 7, 2, 0.25, 6, in("slab:4")}});
   const std::string text = compare("naive_omp", "tiles_omp");
@@ -68,6 +73,26 @@ TEST_F(compared, blocks_of_one_side_alone_tell_the_pairs_apart) {
   EXPECT_CONTAINS(compare("tiles_omp", "naive_omp"), "M=7 threads=2 native slab:4     6/6  262.50  1050.0  0.250");
   EXPECT_CONTAINS(compare("tiles_omp block=auto", "tiles_omp block=slab:4"),
                   "M=7 threads=2 native / native slab:4     6/6  525.00  262.50  2.000");
+}
+
+/// Rows named the isa of the build; they name what summed now.
+TEST_F(compared, scalar_sums_meet_scalar_ones_and_vectors_vectors) {
+  const auto on = [](const char* isa) {
+    return [=](sample& s) {
+      s.point.isa = isa;
+      if (s.work && isa == std::string("avx512")) s.work->vector_units = {"none", 8, 1000, 0.8};
+    };
+  };
+  write({{"naive_omp", 7, 2, 1.0, 6, on("native")},
+         {"naive_omp", 7, 2, 0.5, 6, on("avx512")},
+         {"symmetric_omp", 7, 2, 0.8, 6, on("scalar")},
+         {"symmetric_omp", 7, 2, 0.25, 6, on("avx512")},
+         {"tiles_omp", 7, 2, 0.2, 6, on("avx512")}});
+  const std::string text = compare("naive_omp", "symmetric_omp");
+  EXPECT_CONTAINS(text, "Of 2 comparisons B is faster in 2");
+  EXPECT_CONTAINS(text, "6/6  1050.0  840.00  1.250");
+  EXPECT_CONTAINS(text, "525.00  262.50  2.000");
+  EXPECT_CONTAINS(compare("symmetric_omp", "tiles_omp"), "Of 2 comparisons B is faster in 2");
 }
 
 TEST_F(compared, another_phase_can_be_asked_for) {

@@ -40,7 +40,10 @@ TEST_F(questions_of, several_speedups_are_said_as_a_range) {
 /// not repeated. A gather is set against the symmetric sum with the same.
 TEST_F(questions_of, blocks_and_instruction_sets_tell_speedups_apart) {
   const auto tiles = [](const char* isa, const char* block, double gather, double symmetric) {
-    const auto with = [=](sample& s) { s.point.isa = isa, s.point.block = block; };
+    const auto with = [=](sample& s) {
+      s.point.isa = isa, s.point.block = block;
+      if (s.work) s.work->vector_units = {block, 8, 1000, 0.8};
+    };
     return std::vector<made_point>{{"naive_tiles_omp", 7, 2, gather, 6, with}, {"tiles_omp", 7, 2, symmetric, 6, with}};
   };
   const auto answer = [&](std::vector<std::vector<made_point>> all) {
