@@ -63,13 +63,18 @@ std::string algorithm_of(const json& e, const char* key) {
   return name.ends_with(runtime) ? name.substr(0, name.size() - runtime.size()) : name;
 }
 
-/// What tells entries of backends with blocks apart: ", avx2, slab:4", of which only what is not the same in all.
+/// What tells entries of a backend apart, or of backends with blocks: ", avx2, slab:4", of which only what is not the
+/// same in all.
 std::string variant(const json& e, const std::vector<json>& all) {
+  const auto differs = [&](const char* key, auto&& is_like) {
+    return std::ranges::any_of(all, [&](const json& o) { return is_like(o) && o.at(key) != e.at(key); });
+  };
   std::string text;
-  if (e.at("block") == "none") return text;
-  for (const char* key : {"isa", "block"})
-    if (std::ranges::any_of(all, [&](const json& o) { return o.at("block") != "none" && o.at(key) != e.at(key); }))
-      text += ", " + word(e.at(key));
+  if (differs("isa", [&](const json& o) { return o.at("backend") == e.at("backend"); }))
+    text += ", " + word(e.at("isa"));
+  const bool has_blocks = e.at("block") != "none";
+  if (has_blocks && differs("block", [](const json& o) { return o.at("block") != "none"; }))
+    text += ", " + word(e.at("block"));
   return text;
 }
 

@@ -62,6 +62,13 @@ TEST_F(questions_of, blocks_and_instruction_sets_tell_speedups_apart) {
       answer({tiles("avx2", "auto", 1.0, 0.8), tiles("sse4", "auto", 1.5, 0.5)}),
       "naive_tiles M = 7 over tiles M = 7, avx2: 1.25 [1.25, 1.25], OpenMP naive_tiles M = 7 over tiles M = "
       "7, sse4: 3.00 [3.00, 3.00].");
+  const auto vector = [](sample& s) {
+    s.point.isa = "avx2";
+    if (s.work) s.work->vector_units = {"none", 4, 1000, 0.8};
+  };
+  EXPECT_CONTAINS(answer({{{"naive_omp", 7, 2, 0.6, 6, vector}, {"symmetric_omp", 7, 2, 0.8, 6, vector}}}),
+                  "OpenMP naive M = 7 over symmetric M = 7, avx2: 0.75 [0.75, 0.75], OpenMP naive M = 7 over symmetric "
+                  "M = 7, scalar: 1.25 [1.25, 1.25].");
 }
 
 TEST_F(questions_of, not_faster_is_said) {
