@@ -26,7 +26,7 @@ def pairsum(tmp_path):
     """Calls pairsum in an empty folder; returns the finished process."""
 
     def call(*words, program="pairsum"):
-        return subprocess.run([BIN / program, *map(str, words)], cwd=tmp_path, text=True, capture_output=True, timeout=120)
+        return subprocess.run([BIN / program, *map(str, words)], cwd=tmp_path, text=True, capture_output=True, timeout=300)
 
     return call
 
