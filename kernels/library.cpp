@@ -1,6 +1,7 @@
 // What this build of the library holds: the words of kernels/registry.def, less those that options leave out. An
 // explicit list, for objects that register themselves vanish from static libraries.
 #include <pairsum/cases/case.hpp>
+#include <pairsum/core/names.hpp>
 #include <pairsum/formula/words.hpp>
 #include <pairsum/integrators/integrator.hpp>
 #include <pairsum/sum/registry.hpp>
@@ -34,15 +35,6 @@ namespace pairsum {
 namespace pairsum {
 namespace {
 
-/// Is the word one of a list with commas?
-constexpr bool is_in(std::string_view list, std::string_view word) {
-  while (!list.empty()) {
-    const std::size_t comma = list.find(',');
-    if (list.substr(0, comma) == word) return true;
-    list.remove_prefix(comma == list.npos ? list.size() : comma + 1);
-  }
-  return false;
-}
 constexpr std::string_view dims = PAIRSUM_BUILT_DIMS, precision_list = PAIRSUM_BUILT_PRECISIONS,
                            interactions = PAIRSUM_BUILT_INTERACTIONS, smoothings = PAIRSUM_BUILT_SMOOTHINGS;
 

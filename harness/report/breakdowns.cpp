@@ -103,11 +103,10 @@ json strategies(const json& tables) {
   for (const std::string& backend : backends) {
     const backend_traits* const t = traits_of(backend);
     const auto said = [&](auto value) { return t != nullptr ? json(value(*t)) : json(nullptr); };
-    const bool is_said = t != nullptr && t->conflicts != conflict_avoidance::unsaid;
     std::string where;
     for (const std::string& text : breakdowns(tables, backend)) where += (where.empty() ? "" : "; ") + text;
     all.push_back({{"backend", backend},
-                   {"conflicts", is_said ? json(name_of(t->conflicts)) : json(nullptr)},
+                   {"conflicts", said([](const auto& b) { return name_of(b.conflicts); })},
                    {"runtime", said([](const auto& b) { return name_of(b.threads); })},
                    {"aliases", said([](const auto& b) { return b.aliases; })},
                    {"description", said([](const auto& b) { return b.description; })},

@@ -142,9 +142,7 @@ class field_columns {
  public:
   void resize(std::size_t n) {
     each_scalar(zero<S>(), [&](const auto& a, int slot) { data_[slot].resize(n * sizeof a); });
-    size_ = n;
   }
-  std::size_t size() const { return size_; }
   field_pointers<S> pointers() {
     field_pointers<S> p;
     for (int slot = 0; slot < field_count<S>; ++slot) p.begin[slot] = data_[slot].data();
@@ -153,7 +151,6 @@ class field_columns {
 
  private:
   std::array<column<std::byte>, field_count<S>> data_;
-  std::size_t size_ = 0;
 };
 
 }  // namespace pairsum

@@ -25,13 +25,7 @@ bool runs_avx2() {
 bool runs_sse4() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
 #endif
 
-constexpr bool is_built(std::string_view name) {
-  constexpr std::string_view built = "," PAIRSUM_BUILT_ISAS ",";
-  for (std::size_t at = 0; at + name.size() + 1 < built.size(); ++at)
-    if (built[at] == ',' && built.substr(at + 1, name.size()) == name && built[at + 1 + name.size()] == ',')
-      return true;
-  return false;
-}
+constexpr bool is_built(std::string_view name) { return is_in(PAIRSUM_BUILT_ISAS, name); }
 
 /// Best first.
 std::vector<known_isa> known() {

@@ -14,6 +14,16 @@ inline std::string number_text(double a) {
   return {text, std::to_chars(text, text + sizeof text, a).ptr};
 }
 
+/// Is the word one of a list with commas?
+constexpr bool is_in(std::string_view list, std::string_view word) {
+  while (!list.empty()) {
+    const std::size_t comma = list.find(',');
+    if (list.substr(0, comma) == word) return true;
+    list.remove_prefix(comma == list.npos ? list.size() : comma + 1);
+  }
+  return false;
+}
+
 /// "a, b, c"
 template <class Names>
 std::string join(const Names& names) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <pairsum/core/precision.hpp>
 #include <pairsum/formula/formula_of.hpp>
 #include <pairsum/reference/reference_of.hpp>
 
@@ -16,6 +17,8 @@ constexpr combination_words words_of() {
 /// reference.
 template <interaction I>
 formula_entry formula_entry_of() {
+  static_assert(is_place<I::dim, typename I::real>(),
+                "this build of the library leaves out I::dim or I::real: see PAIRSUM_DIMS and PAIRSUM_PRECISIONS");
   return {words_of<I>(),
           [](const setup& s) -> std::unique_ptr<any_formula> { return std::make_unique<formula_of<I>>(s); },
           [](const setup& s) -> std::unique_ptr<reference> { return std::make_unique<reference_of<I>>(s); }};

@@ -52,9 +52,9 @@ lane_layout layout_of() {
   lane_layout l;
   l.rates_at = layout::rates_at * sizeof(typename layout::value);
   l.stride = layout::bytes;
-  l.rates_bytes = padded(layout::rates) * sizeof(real);
   l.value = sizeof(typename layout::value);
   l.mixed = is_mixed<I>;
+  l.boundary_reach = pairsum::boundary_reach<I>();
   l.column_bytes = (layout::values + layout::rates) * sizeof(real);
   return l;
 }

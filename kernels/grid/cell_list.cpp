@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <pairsum/core/error.hpp>
+#include <pairsum/core/places.hpp>
 
 namespace pairsum {
 namespace {
@@ -85,11 +86,7 @@ void cell_list<D, R>::ranks(const particle_set<D, R>& p, std::size_t begin, std:
   }
 }
 
-template class cell_list<1, double>;
-template class cell_list<2, double>;
-template class cell_list<3, double>;
-template class cell_list<1, float>;
-template class cell_list<2, float>;
-template class cell_list<3, float>;
+#define PAIRSUM_CELL_LIST(D, R) template class cell_list<D, R>;
+PAIRSUM_EACH_D_R(PAIRSUM_CELL_LIST)
 
 }  // namespace pairsum

@@ -3,6 +3,7 @@
 #include <bit>
 #include <utility>
 
+#include <pairsum/core/places.hpp>
 #include <pairsum/grid/refusals.hpp>
 #include <pairsum/grid/sorted_search.hpp>
 
@@ -109,11 +110,7 @@ void compact_grid<D, R>::connect_list(std::span<const std::uint32_t> cell_keys, 
   });
 }
 
-template class compact_grid<1, double>;
-template class compact_grid<2, double>;
-template class compact_grid<3, double>;
-template class compact_grid<1, float>;
-template class compact_grid<2, float>;
-template class compact_grid<3, float>;
+#define PAIRSUM_COMPACT_GRID(D, R) template class compact_grid<D, R>;
+PAIRSUM_EACH_D_R(PAIRSUM_COMPACT_GRID)
 
 }  // namespace pairsum

@@ -4,6 +4,7 @@
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/names.hpp>
+#include <pairsum/core/places.hpp>
 #include <pairsum/grid/refusals.hpp>
 #include <pairsum/grid/torus_table.hpp>
 
@@ -60,11 +61,7 @@ void dense_grid<D, R>::connect(std::span<const std::uint32_t> cell_keys, cells<D
   });
 }
 
-template class dense_grid<1, double>;
-template class dense_grid<2, double>;
-template class dense_grid<3, double>;
-template class dense_grid<1, float>;
-template class dense_grid<2, float>;
-template class dense_grid<3, float>;
+#define PAIRSUM_DENSE_GRID(D, R) template class dense_grid<D, R>;
+PAIRSUM_EACH_D_R(PAIRSUM_DENSE_GRID)
 
 }  // namespace pairsum

@@ -6,6 +6,7 @@
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/names.hpp>
+#include <pairsum/core/places.hpp>
 #include <pairsum/grid/refusals.hpp>
 #include <pairsum/grid/torus_table.hpp>
 
@@ -73,11 +74,7 @@ void hashed_grid<D, R>::connect(std::span<const std::uint32_t> cell_keys, cells<
       [&](int d, std::int64_t a) { return static_cast<std::uint32_t>(a) << (d * M_); });
 }
 
-template class hashed_grid<1, double>;
-template class hashed_grid<2, double>;
-template class hashed_grid<3, double>;
-template class hashed_grid<1, float>;
-template class hashed_grid<2, float>;
-template class hashed_grid<3, float>;
+#define PAIRSUM_HASHED_GRID(D, R) template class hashed_grid<D, R>;
+PAIRSUM_EACH_D_R(PAIRSUM_HASHED_GRID)
 
 }  // namespace pairsum

@@ -1,3 +1,4 @@
+#include <pairsum/core/places.hpp>
 #include <pairsum/grid/indexer.hpp>
 
 #include <algorithm>
@@ -182,11 +183,7 @@ void indexer<D, R>::sort(particle_set<D, R>& p, const team& t) {
   reorder_.apply(keys_, counting_sort_.order(), t);
 }
 
-template class indexer<1, double>;
-template class indexer<2, double>;
-template class indexer<3, double>;
-template class indexer<1, float>;
-template class indexer<2, float>;
-template class indexer<3, float>;
+#define PAIRSUM_INDEXER(D, R) template class indexer<D, R>;
+PAIRSUM_EACH_D_R(PAIRSUM_INDEXER)
 
 }  // namespace pairsum

@@ -11,9 +11,9 @@ void with_state(summation& s, F&& f) {
     if (typed) f(*typed);
     return typed != nullptr;
   };
-  (void)(try_one.template operator()<3, double>() || try_one.template operator()<3, float>() ||
-         try_one.template operator()<2, double>() || try_one.template operator()<2, float>() ||
-         try_one.template operator()<1, double>() || try_one.template operator()<1, float>());
+#define PAIRSUM_TRY(D, R) try_one.template operator()<D, R>() ||
+  (void)(PAIRSUM_EACH_D_R(PAIRSUM_TRY) false);
+#undef PAIRSUM_TRY
 }
 
 }  // namespace pairsum

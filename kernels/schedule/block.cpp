@@ -1,3 +1,4 @@
+#include <pairsum/core/places.hpp>
 #include <pairsum/schedule/block.hpp>
 
 #include <utility>
@@ -28,8 +29,7 @@ void coloured_blocks<D>::build(const cells<D>& c, const team& t) {
   });
 }
 
-template class coloured_blocks<1>;
-template class coloured_blocks<2>;
-template class coloured_blocks<3>;
+#define PAIRSUM_COLOURED_BLOCKS(D) template class coloured_blocks<D>;
+PAIRSUM_EACH_D(PAIRSUM_COLOURED_BLOCKS)
 
 }  // namespace pairsum

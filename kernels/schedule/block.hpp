@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include <pairsum/core/places.hpp>
 #include <pairsum/core/team.hpp>
 #include <pairsum/sum/prefetch.hpp>
 #include <pairsum/sum/schedule.hpp>
@@ -117,8 +118,8 @@ class coloured_blocks {
   std::array<column<block<D>>, colours> blocks_;
 };
 
-extern template class coloured_blocks<1>;
-extern template class coloured_blocks<2>;
-extern template class coloured_blocks<3>;
+#define PAIRSUM_COLOURED_BLOCKS(D) extern template class coloured_blocks<D>;
+PAIRSUM_EACH_D(PAIRSUM_COLOURED_BLOCKS)
+#undef PAIRSUM_COLOURED_BLOCKS
 
 }  // namespace pairsum

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <pairsum/core/places.hpp>
 #include <pairsum/core/value.hpp>
 #include <pairsum/schedule/block_cut.hpp>
 
@@ -79,8 +80,7 @@ block_shape choose_block(const cells<D>& c, const block_limits& limits) {
   return {D, widths.back()};
 }
 
-template block_shape choose_block(const cells<1>&, const block_limits&);
-template block_shape choose_block(const cells<2>&, const block_limits&);
-template block_shape choose_block(const cells<3>&, const block_limits&);
+#define PAIRSUM_CHOICES(D) template block_shape choose_block(const cells<D>&, const block_limits&);
+PAIRSUM_EACH_D(PAIRSUM_CHOICES)
 
 }  // namespace pairsum

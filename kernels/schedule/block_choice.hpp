@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 
+#include <pairsum/core/places.hpp>
 #include <pairsum/grid/cells.hpp>
 #include <pairsum/schedule/block_shape.hpp>
 
@@ -29,8 +30,8 @@ block_limits limits_of(std::size_t cache_bytes, std::size_t bytes_per_cell, std:
 template <int D>
 block_shape choose_block(const cells<D>& c, const block_limits& limits);
 
-extern template block_shape choose_block(const cells<1>&, const block_limits&);
-extern template block_shape choose_block(const cells<2>&, const block_limits&);
-extern template block_shape choose_block(const cells<3>&, const block_limits&);
+#define PAIRSUM_CHOICES(D) extern template block_shape choose_block(const cells<D>&, const block_limits&);
+PAIRSUM_EACH_D(PAIRSUM_CHOICES)
+#undef PAIRSUM_CHOICES
 
 }  // namespace pairsum

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include <pairsum/core/error.hpp>
+#include <pairsum/core/places.hpp>
 #include <pairsum/grid/place_hash.hpp>
 #include <pairsum/schedule/block_cut.hpp>
 
@@ -72,8 +73,7 @@ void cell_blocks<D>::find_blocks(const cells<D>& c, int axes) {
   }
 }
 
-template class cell_blocks<1>;
-template class cell_blocks<2>;
-template class cell_blocks<3>;
+#define PAIRSUM_CELL_BLOCKS(D) template class cell_blocks<D>;
+PAIRSUM_EACH_D(PAIRSUM_CELL_BLOCKS)
 
 }  // namespace pairsum

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <pairsum/core/places.hpp>
 #include <pairsum/grid/cells.hpp>
 #include <pairsum/schedule/block_choice.hpp>
 
@@ -68,8 +69,8 @@ class cell_blocks {
   ivec<D> period_{};
 };
 
-extern template class cell_blocks<1>;
-extern template class cell_blocks<2>;
-extern template class cell_blocks<3>;
+#define PAIRSUM_CELL_BLOCKS(D) extern template class cell_blocks<D>;
+PAIRSUM_EACH_D(PAIRSUM_CELL_BLOCKS)
+#undef PAIRSUM_CELL_BLOCKS
 
 }  // namespace pairsum

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include <pairsum/core/error.hpp>
+#include <pairsum/core/places.hpp>
 #include <pairsum/grid/place_hash.hpp>
 
 namespace pairsum {
@@ -93,8 +94,7 @@ void coloured_packs<D>::build(const cells<D>& c) {
   revision_ = c.revision;
 }
 
-template class coloured_packs<1>;
-template class coloured_packs<2>;
-template class coloured_packs<3>;
+#define PAIRSUM_COLOURED_PACKS(D) template class coloured_packs<D>;
+PAIRSUM_EACH_D(PAIRSUM_COLOURED_PACKS)
 
 }  // namespace pairsum

@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include <pairsum/core/places.hpp>
 #include <pairsum/schedule/block.hpp>
 
 namespace pairsum {
@@ -43,8 +44,8 @@ class coloured_packs {
   std::uint64_t revision_ = 0;
 };
 
-extern template class coloured_packs<1>;
-extern template class coloured_packs<2>;
-extern template class coloured_packs<3>;
+#define PAIRSUM_COLOURED_PACKS(D) extern template class coloured_packs<D>;
+PAIRSUM_EACH_D(PAIRSUM_COLOURED_PACKS)
+#undef PAIRSUM_COLOURED_PACKS
 
 }  // namespace pairsum

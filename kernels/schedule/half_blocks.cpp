@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <pairsum/core/error.hpp>
+#include <pairsum/core/places.hpp>
 
 namespace pairsum {
 
@@ -64,8 +65,7 @@ void half_blocks<D>::build(const cells<D>& c, const team& t) {
   revision_ = c.revision;
 }
 
-template class half_blocks<1>;
-template class half_blocks<2>;
-template class half_blocks<3>;
+#define PAIRSUM_HALF_BLOCKS(D) template class half_blocks<D>;
+PAIRSUM_EACH_D(PAIRSUM_HALF_BLOCKS)
 
 }  // namespace pairsum

@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include <pairsum/core/places.hpp>
 #include <pairsum/pattern/axis_colours.hpp>
 #include <pairsum/schedule/block.hpp>
 
@@ -36,8 +37,8 @@ class half_blocks {
   std::uint64_t revision_ = 0;
 };
 
-extern template class half_blocks<1>;
-extern template class half_blocks<2>;
-extern template class half_blocks<3>;
+#define PAIRSUM_HALF_BLOCKS(D) extern template class half_blocks<D>;
+PAIRSUM_EACH_D(PAIRSUM_HALF_BLOCKS)
+#undef PAIRSUM_HALF_BLOCKS
 
 }  // namespace pairsum

@@ -1,3 +1,4 @@
+#include <pairsum/core/places.hpp>
 #include <pairsum/schedule/half_cell_order.hpp>
 
 #include <cmath>
@@ -92,11 +93,7 @@ void half_cell_order<D, R>::build(const search_space<D, R>& space, const cells<D
   });
 }
 
-template class half_cell_order<1, double>;
-template class half_cell_order<2, double>;
-template class half_cell_order<3, double>;
-template class half_cell_order<1, float>;
-template class half_cell_order<2, float>;
-template class half_cell_order<3, float>;
+#define PAIRSUM_HALF_CELL_ORDER(D, R) template class half_cell_order<D, R>;
+PAIRSUM_EACH_D_R(PAIRSUM_HALF_CELL_ORDER)
 
 }  // namespace pairsum

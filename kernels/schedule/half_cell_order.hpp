@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include <pairsum/core/places.hpp>
 #include <pairsum/core/team.hpp>
 #include <pairsum/grid/cells.hpp>
 #include <pairsum/sum/search_space.hpp>
@@ -27,8 +28,6 @@ class half_cell_order {
     }
     return s;
   }
-  /// Which particle is number k.
-  std::uint32_t operator[](std::size_t k) const { return order_[k]; }
   /// The numbers in a part of a cell.
   const cell_range& range(std::size_t cell, unsigned part) const { return range_[cell * parts + part]; }
 
@@ -56,11 +55,8 @@ class half_cell_order {
   column<cell_range> range_;
 };
 
-extern template class half_cell_order<1, double>;
-extern template class half_cell_order<2, double>;
-extern template class half_cell_order<3, double>;
-extern template class half_cell_order<1, float>;
-extern template class half_cell_order<2, float>;
-extern template class half_cell_order<3, float>;
+#define PAIRSUM_ORDERS(D, R) extern template class half_cell_order<D, R>;
+PAIRSUM_EACH_D_R(PAIRSUM_ORDERS)
+#undef PAIRSUM_ORDERS
 
 }  // namespace pairsum

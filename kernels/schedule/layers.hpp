@@ -15,8 +15,6 @@ namespace pairsum {
 struct cell_layer {
   std::int64_t at;
   std::uint32_t begin, end;
-
-  std::uint32_t cells() const { return end - begin; }
 };
 
 /// How many layers go round a grid that closes on itself along the last axis; 0: it does not.

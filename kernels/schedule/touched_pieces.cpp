@@ -1,3 +1,4 @@
+#include <pairsum/core/places.hpp>
 #include <pairsum/schedule/touched_pieces.hpp>
 
 #include <algorithm>
@@ -49,8 +50,7 @@ void touched_pieces<D>::build(const cells<D>& c, std::size_t fluid, const team& 
       if (writers[touched.block] > 1) touched.slot = next[touched.block]++;
 }
 
-template class touched_pieces<1>;
-template class touched_pieces<2>;
-template class touched_pieces<3>;
+#define PAIRSUM_TOUCHED_PIECES(D) template class touched_pieces<D>;
+PAIRSUM_EACH_D(PAIRSUM_TOUCHED_PIECES)
 
 }  // namespace pairsum

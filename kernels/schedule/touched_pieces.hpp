@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include <pairsum/core/places.hpp>
 #include <pairsum/core/team.hpp>
 #include <pairsum/grid/cells.hpp>
 #include <pairsum/sum/rate_view.hpp>
@@ -37,8 +38,8 @@ class touched_pieces {
   std::vector<std::uint32_t> first_slot_;
 };
 
-extern template class touched_pieces<1>;
-extern template class touched_pieces<2>;
-extern template class touched_pieces<3>;
+#define PAIRSUM_TOUCHED_PIECES(D) extern template class touched_pieces<D>;
+PAIRSUM_EACH_D(PAIRSUM_TOUCHED_PIECES)
+#undef PAIRSUM_TOUCHED_PIECES
 
 }  // namespace pairsum

@@ -5,7 +5,6 @@ namespace pairsum {
 
 /// How a backend keeps two threads from writing to one particle at a time.
 enum class conflict_avoidance {
-  unsaid,   ///< its traits do not say
   serial,   ///< one thread
   gather,   ///< a thread writes its own particles alone, and computes pairs with others' a second time
   colours,  ///< what is done at a time shares no particle; barriers between colours
@@ -16,7 +15,7 @@ enum class conflict_avoidance {
 };
 
 inline constexpr std::string_view name_of(conflict_avoidance c) {
-  constexpr std::string_view names[]{"unsaid", "serial", "gather", "colours", "atomics", "copies", "locks", "tasks"};
+  constexpr std::string_view names[]{"serial", "gather", "colours", "atomics", "copies", "locks", "tasks"};
   return names[static_cast<unsigned>(c)];
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 #include <memory>
 #include <span>
-#include <string>
 
 #include <pairsum/particles/particle_set.hpp>
 #include <pairsum/sum/lane_rows.hpp>

@@ -5,7 +5,7 @@
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/names.hpp>
-#include <pairsum/core/tbb_arena.hpp>
+#include <pairsum/core/precision.hpp>
 #include <pairsum/grid/compact_grid.hpp>
 #include <pairsum/grid/dense_grid.hpp>
 #include <pairsum/sum/check.hpp>
@@ -32,22 +32,15 @@ std::unique_ptr<grid<D, R>> make_grid(const setup& s) {
   throw unknown_name("grid", s.grid, grid_names());
 }
 
-namespace {
-
-template <int D>
-bool fits(const setup& s) {
+bool grid_fits(const setup& s) {
   try {
-    make_grid<D, double>(s);
-    make_grid<D, float>(s);
+    for (const bool single : {false, true})
+      at_place(s.dim, single, [&]<int D, class R>() { return make_grid<D, R>(s) != nullptr; });
   } catch (const error&) {
     return false;
   }
   return true;
 }
-
-}  // namespace
-
-bool grid_fits(const setup& s) { return s.dim == 1 ? fits<1>(s) : s.dim == 2 ? fits<2>(s) : fits<3>(s); }
 
 setup with_skin(setup s, double skin) {
   s.constants.H *= 1 + skin;
@@ -81,22 +74,9 @@ box<D, R> make_box(const setup& s) {
   return b;
 }
 
-void with_one_thread(runtime kind, const std::function<void(const team&)>& f) {
-  if (kind == runtime::omp) return f(team::omp(1));
-  if (kind == runtime::serial) return f(team());
-  tbb_arena arena(1);
-  f(team::tbb(1, arena));
-}
-
 #define PAIRSUM_GRIDS(D, R)                                           \
   template std::unique_ptr<grid<D, R>> make_grid<D, R>(const setup&); \
   template box<D, R> make_box<D, R>(const setup&);
-PAIRSUM_GRIDS(1, double)
-PAIRSUM_GRIDS(2, double)
-PAIRSUM_GRIDS(3, double)
-PAIRSUM_GRIDS(1, float)
-PAIRSUM_GRIDS(2, float)
-PAIRSUM_GRIDS(3, float)
-#undef PAIRSUM_GRIDS
+PAIRSUM_EACH_D_R(PAIRSUM_GRIDS)
 
 }  // namespace pairsum

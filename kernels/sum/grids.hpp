@@ -1,10 +1,8 @@
 #pragma once
-#include <functional>
 #include <memory>
 #include <string_view>
 #include <vector>
 
-#include <pairsum/core/team.hpp>
 #include <pairsum/grid/grid.hpp>
 #include <pairsum/grid/hashed_grid.hpp>
 #include <pairsum/sum/omega.hpp>
@@ -26,8 +24,5 @@ bool grid_fits(const setup& s);
 
 /// The setup, for cells that are wider by a skin, in units of H.
 setup with_skin(setup s, double skin);
-
-/// Calls f with a team of one thread of the given kind.
-void with_one_thread(runtime kind, const std::function<void(const team&)>& f);
 
 }  // namespace pairsum

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <pairsum/core/error.hpp>
@@ -47,34 +48,32 @@ lane_tolerances lane_tolerances::of(const setup& s, double cutoff, bool mixed, d
 }
 
 template <int D, class R>
-lane_rows<D, R>::lane_rows(const setup& s, const lane_layout& layout, bool lanes_fuse, double boundary_reach,
-                           double skin)
+lane_rows<D, R>::lane_rows(const setup& s, const lane_layout& layout, bool lanes_fuse, double skin)
     : layout_(layout),
-      tolerances_(lane_tolerances::of(s, s.constants.H * (1 + skin), layout.mixed,
-                                      static_cast<double>(std::numeric_limits<R>::epsilon()),
-                                      layout.value == 4 ? static_cast<double>(std::numeric_limits<float>::epsilon())
-                                                        : std::numeric_limits<double>::epsilon())),
       cutoff_(s.constants.H * (1 + skin)),
-      boundary_reach_(boundary_reach > 0 ? (boundary_reach + skin) / (1 + skin) : 0) {
+      boundary_reach_(layout.boundary_reach > 0 ? (layout.boundary_reach + skin) / (1 + skin) : 0) {
+  const lane_tolerances allowed =
+      lane_tolerances::of(s, cutoff_, layout.mixed, static_cast<double>(std::numeric_limits<R>::epsilon()),
+                          layout.value == 4 ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                                            : std::numeric_limits<double>::epsilon());
+  excess_ = allowed.excess;
   const bool rounds_alike = !layout.mixed && (D == 1 || lanes_fuse == scalar_fuses);
   view_.periodic = s.periodic;
   view_.in_reach = rounds_alike ? nullptr : &in_reach<D, R>;
-  view_.tie = tolerances_.tie;
-  std::copy_n(tolerances_.mixed_unit.begin(), D, view_.mixed_unit.begin());
+  view_.tie = allowed.tie;
+  std::copy_n(allowed.mixed_unit.begin(), D, view_.mixed_unit.begin());
 }
 
 template <int D, class R>
 void lane_rows<D, R>::prepare(problem<D, R>& p, const team& t) {
   constexpr std::size_t most_in_float = 0x7fffffff;  // numbers of particles are lanes as wide as values
   p.spare_rows = spare_rows;
-  p.threads = t.threads();
   const std::size_t rows = p.rate_rows(), all = p.count + (rows - p.fluid_count);
   if (layout_.value == 4 && all > most_in_float)
     throw error("vector units take at most 2^31 - 1 particles in float or mixed precision, got " +
                 std::to_string(p.count));
   rows_.resize(rows * layout_.stride);
   view_.rows = rows_.data();
-  view_.stride = layout_.stride;
   for (int d = 0; d < D; ++d) view_.origin[d] = view_.periodic && p.count > 0 ? p.x.column[d][0] : R(0);
   for (auto& column : place_) column.resize(p.count + place_room);
   t.for_pieces(p.count, [&](std::size_t begin, std::size_t end, std::size_t) { fill_places(p, begin, end); });
@@ -84,14 +83,14 @@ void lane_rows<D, R>::prepare(problem<D, R>& p, const team& t) {
       std::fill_n(reinterpret_cast<float*>(row), layout_.rates_at / 4, std::numeric_limits<float>::quiet_NaN());
     else
       std::fill_n(reinterpret_cast<double*>(row), layout_.rates_at / 8, std::numeric_limits<double>::quiet_NaN());
-    std::fill_n(reinterpret_cast<R*>(row + layout_.rates_at), layout_.rates_bytes / sizeof(R), R(0));
+    std::fill_n(reinterpret_cast<R*>(row + layout_.rates_at), (layout_.stride - layout_.rates_at) / sizeof(R), R(0));
   }
-  is_zero_ = true;
+  p.is_zero = true;
   rates_begin_ = rows_.data() + layout_.rates_at;
   p.lane = &view_;
   p.u = {&rates_begin_, layout_.stride};
   lane_places<D>& places = p.places;
-  places.excess = tolerances_.excess;
+  places.excess = excess_;
   places.boundary_reach = static_cast<float>(boundary_reach_);
   places.periodic = view_.periodic;
   for (int d = 0; d < D; ++d) {

@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <limits>
 
 #include <pairsum/core/column.hpp>
 #include <pairsum/core/team.hpp>
@@ -12,10 +11,11 @@ namespace pairsum {
 
 /// How a formula's particles lie as rows: position and fields, then, from rates_at on, the rates. In bytes.
 struct lane_layout {
-  std::size_t rates_at = 0, stride = 0, rates_bytes = 0;
+  std::size_t rates_at = 0, stride = 0;
   std::size_t value = 0;         ///< of a value
   bool mixed = false;            ///< values are float, sums double
   std::size_t column_bytes = 0;  ///< of a particle without rows: position, fields and rates in columns
+  double boundary_reach = 0;     ///< where the boundary is in reach, in units of H
 };
 
 /// What vector units see of the fluid besides its places: all that a particle brings to a pair in a row, so that a
@@ -25,7 +25,8 @@ struct lane_layout {
 /// Values are of the pairs' precision, rates of the sums'. Where these differ (mixed) a component of a position is a
 /// whole number of mixed_unit modulo 2^32, kept in the bits of a value.
 template <int D, class R>
-struct lane_view : row_memory {
+struct lane_view {
+  std::byte* rows = nullptr;  ///< on 64-byte boundaries
   bool periodic = false;
   std::array<R, D> origin{};           ///< m: of mixed positions
   std::array<double, D> mixed_unit{};  ///< m: what mixed positions are counted in
@@ -59,27 +60,24 @@ class lane_rows {
  public:
   static constexpr std::size_t spare_rows = row_padding;  ///< per thread
 
-  /// `boundary_reach`: of H; `skin`: of lists, in units of H.
-  lane_rows(const setup& s, const lane_layout& layout, bool lanes_fuse, double boundary_reach, double skin);
+  /// `skin`: of lists, in units of H.
+  lane_rows(const setup& s, const lane_layout& layout, bool lanes_fuse, double skin);
 
-  /// Makes room for rows, fills places, and lets the problem point to both; the formula then fills the fluid's rows.
+  /// Makes room for rows, fills places, and lets the problem point to both; the formula then fills the fluid's rows,
+  /// rates of 0 among them.
   void prepare(problem<D, R>& p, const team& t);
   const lane_view<D, R>& view() const { return view_; }
-  /// The rates of rows to 0 if a sum has been there since prepare().
-  void summed() { is_zero_ = false; }
-  bool is_zero() const { return is_zero_; }
 
  private:
   void fill_places(const problem<D, R>& p, std::size_t begin, std::size_t end);
 
   lane_layout layout_;
-  lane_tolerances tolerances_;
   double cutoff_, boundary_reach_;
+  float excess_;
   lane_view<D, R> view_;
   column<std::byte> rows_;
   std::array<column<std::int32_t>, D> place_;
   void* rates_begin_ = nullptr;
-  bool is_zero_ = false;
 };
 
 }  // namespace pairsum

@@ -91,8 +91,8 @@ void sum_listed(const problem<D, R>& p, const target& to, const row* rows, std::
       taker.take(taker.call, rows, n);
   };
   if (p.counts == nullptr) return hand_to(sink);
-  const counted_rows<D, R> counted{sink, *p.counts};
-  hand_to({&counted_rows<D, R>::take, &counted});
+  const counted_rows counted{sink, *p.counts};
+  hand_to({&counted_rows::take, &counted});
 }
 
 #define PAIRSUM_LISTED(D, R) \

@@ -1,11 +1,9 @@
 // Finds who is in reach, and hands rows of them to the formula. Distances are tested in a loop of their own, which
 // packs the indices in reach without a branch, so that the branch predictor never has to guess a distance; the formula
 // then runs on those alone. Nothing here knows a formula.
-#include <algorithm>
 #include <vector>
 
 #include <pairsum/core/same_code.hpp>
-#include <pairsum/sum/lane_rows.hpp>
 #include <pairsum/sum/pack.hpp>
 #include <pairsum/sum/prefetch.hpp>
 #include <pairsum/sum/problem.hpp>
@@ -139,8 +137,8 @@ void sum_meetings(const problem<D, R>& p, const search_space<D, R>& space, const
   const rows_function take = m->who == partners::others ? p.pairs->own : both_sides(p, to.how);
   const row_sink sink{take, &call, p.spare_of(to.thread)};
   if (p.counts != nullptr) [[unlikely]] {
-    const counted_rows<D, R> counted{sink, *p.counts};
-    list_meetings(p, space, {&counted_rows<D, R>::take, &counted, sink.spare}, m, n, p.counts);
+    const counted_rows counted{sink, *p.counts};
+    list_meetings(p, space, {&counted_rows::take, &counted, sink.spare}, m, n, p.counts);
   } else {
     list_meetings<D, R>(p, space, sink, m, n, nullptr);
   }

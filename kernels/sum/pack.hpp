@@ -42,7 +42,6 @@ rows_function both_sides(const problem<D, R>& p, update how) {
 }
 
 /// Takes the work of rows besides having them summed.
-template <int D, class R>
 struct counted_rows {
   const row_sink& inner;
   work_counts& counts;

@@ -1,5 +1,4 @@
 #pragma once
-#include <pairsum/core/same_code.hpp>
 #include <pairsum/sum/problem.hpp>
 
 /// Software prefetch of particles before their pairs are due. A sum goes through some twenty columns in several rows of

@@ -1,4 +1,5 @@
 #pragma once
+#include <pairsum/core/places.hpp>
 #include <pairsum/grid/cells.hpp>
 #include <pairsum/sum/meeting.hpp>
 #include <pairsum/sum/pair_sum.hpp>
@@ -59,7 +60,5 @@ void sum_cells(const problem<D, R>& p, const target& to, partners who, const std
 /// Sums both sides of listed pairs; `tested`: only of those that are in reach, of a list that holds more.
 template <int D, class R>
 void sum_listed(const problem<D, R>& p, const target& to, const row* rows, std::size_t n, bool tested);
-
-#define PAIRSUM_EACH_D_R(DO) DO(1, double) DO(2, double) DO(3, double) DO(1, float) DO(2, float) DO(3, float)
 
 }  // namespace pairsum

@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 #include <pairsum/core/column.hpp>

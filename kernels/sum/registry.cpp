@@ -30,13 +30,6 @@ std::string text_of(const combination_words& w) {
          c.precision;
 }
 
-template <int D, class R>
-std::unique_ptr<summation> joined(const setup& s, const backend_entry& b, std::unique_ptr<any_formula> made) {
-  std::unique_ptr<formula<D, R>> typed(&dynamic_cast<formula<D, R>&>(*made));
-  (void)made.release();
-  return std::make_unique<summation_in<D, R>>(s, b.traits, b.make, std::move(typed));
-}
-
 }  // namespace
 
 const registry& registry::instance() { return changeable_instance(); }
@@ -151,14 +144,14 @@ std::unique_ptr<summation> registry::make_summation(const setup& s) const {
   const formula_entry& f = find_formula(s);
   if (f.make == nullptr) throw error(text_of(f.words) + " has a reference alone");
   auto made = f.make(s);
-  if (s.precision == precision_name<float>()) {
-    if (s.dim == 1) return joined<1, float>(s, b, std::move(made));
-    if (s.dim == 2) return joined<2, float>(s, b, std::move(made));
-    return joined<3, float>(s, b, std::move(made));
-  }
-  if (s.dim == 1) return joined<1, double>(s, b, std::move(made));
-  if (s.dim == 2) return joined<2, double>(s, b, std::move(made));
-  return joined<3, double>(s, b, std::move(made));
+  const bool single = s.precision == precision_name<float>();
+  auto joined = at_place(s.dim, single, [&]<int D, class R>() -> std::unique_ptr<summation> {
+    return std::make_unique<summation_in<D, R>>(s, b.traits, b.make, cast<formula<D, R>>(std::move(made)));
+  });
+  if (joined == nullptr)
+    throw error("this build sums " + std::to_string(s.dim) + "D in " + s.precision +
+                " for no formula; configure with -DPAIRSUM_DIMS=all -DPAIRSUM_PRECISIONS=all");
+  return joined;
 }
 
 std::unique_ptr<reference> registry::make_reference(const setup& s) const {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <pairsum/core/pass_observer.hpp>
+#include <pairsum/core/precision.hpp>
 #include <pairsum/sum/backend_traits.hpp>
 #include <pairsum/sum/problem.hpp>
 #include <pairsum/sum/setup.hpp>
@@ -12,6 +13,14 @@ namespace pairsum {
 struct any_schedule {
   virtual ~any_schedule() = default;
 };
+
+/// The same object as the type that it is; std::bad_cast if it is another.
+template <class To, class From>
+std::unique_ptr<To> cast(std::unique_ptr<From> from) {
+  To& to = dynamic_cast<To&>(*from);
+  (void)from.release();
+  return std::unique_ptr<To>(&to);
+}
 
 /// A summation algorithm: who is summed when, into what. It cuts the sum into units of work by colours: units of a
 /// colour run at the same time, on any thread, and write to different particles; between colours there is a barrier. It
@@ -56,26 +65,23 @@ class schedule : public any_schedule {
 PAIRSUM_EACH_D_R(PAIRSUM_SCHEDULES)
 #undef PAIRSUM_SCHEDULES
 
+/// Makes a schedule<dim, single ? float : double>.
+using schedule_maker = std::unique_ptr<any_schedule> (*)(int dim, bool single);
+
 /// A backend of a registry.
 struct backend_entry {
   backend_traits traits;
-  std::unique_ptr<any_schedule> (*make)(int dim, bool single);  ///< schedule<dim, single ? float : double>
-  std::string unavailable = {};                                 ///< why it cannot be used, empty if it can
+  schedule_maker make;
+  std::string unavailable = {};  ///< why it cannot be used, empty if it can
 
   /// The backend `word` that runs schedule S on runtime r; `word` must live for ever.
   template <template <int, class> class S>
   static backend_entry of(std::string_view word, runtime r) {
-    return {S<3, double>::traits.on(word, r), [](int dim, bool single) -> std::unique_ptr<any_schedule> {
-              if (dim == 1) return single ? make_as<S<1, float>>() : make_as<S<1, double>>();
-              if (dim == 2) return single ? make_as<S<2, float>>() : make_as<S<2, double>>();
-              return single ? make_as<S<3, float>>() : make_as<S<3, double>>();
+    return {S<3, double>::traits.on(word, r), [](int dim, bool single) {
+              return at_place(dim, single, []<int D, class R>() -> std::unique_ptr<any_schedule> {
+                return std::make_unique<S<D, R>>();
+              });
             }};
-  }
-
- private:
-  template <class S>
-  static std::unique_ptr<any_schedule> make_as() {
-    return std::make_unique<S>();
   }
 };
 

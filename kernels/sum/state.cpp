@@ -93,6 +93,7 @@ particle_table state<D, R>::snapshot() const {
   return table;
 }
 
-PAIRSUM_STATES()
+#define PAIRSUM_STATES(D, R) template class state<D, R>;
+PAIRSUM_EACH_D_R(PAIRSUM_STATES)
 
 }  // namespace pairsum

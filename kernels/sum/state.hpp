@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include <pairsum/core/places.hpp>
 #include <pairsum/grid/indexer.hpp>
 #include <pairsum/sum/formula.hpp>
 #include <pairsum/sum/summation.hpp>
@@ -41,13 +42,8 @@ class state : public summation {
   pass_observer* observer_ = nullptr;
 };
 
-#define PAIRSUM_STATES(EXTERN)            \
-  EXTERN template class state<1, double>; \
-  EXTERN template class state<2, double>; \
-  EXTERN template class state<3, double>; \
-  EXTERN template class state<1, float>;  \
-  EXTERN template class state<2, float>;  \
-  EXTERN template class state<3, float>;
-PAIRSUM_STATES(extern)
+#define PAIRSUM_STATES(D, R) extern template class state<D, R>;
+PAIRSUM_EACH_D_R(PAIRSUM_STATES)
+#undef PAIRSUM_STATES
 
 }  // namespace pairsum

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include <pairsum/core/isa.hpp>
 #include <pairsum/core/names.hpp>
+#include <pairsum/core/workers.hpp>
 #include <pairsum/sum/grids.hpp>
 #include <pairsum/sum/no_formula.hpp>
 #include <pairsum/sum/omega.hpp>
@@ -49,9 +49,7 @@ void summation_in<D, R>::choose_lanes() {
                   std::string(best_isa));
   }
   if (lane_ != nullptr) {
-    problem<D, R> p;
-    formula_->open(p, R(1));
-    rows_.emplace(s, formula_->layout(), lane_->fuses, std::sqrt(static_cast<double>(p.boundary_reach2)), traits_.skin);
+    rows_.emplace(s, formula_->layout(), lane_->fuses, traits_.skin);
   } else if (mixed) {
     throw error("precision mixed needs vector units: take an isa other than " + std::string(scalar_isa) +
                 (isa_names().empty() ? ", in a build and on a machine that have one" : ""));
@@ -60,11 +58,13 @@ void summation_in<D, R>::choose_lanes() {
 
 template <int D, class R>
 std::unique_ptr<schedule<D, R>> summation_in<D, R>::new_schedule() const {
-  auto made = make_(D, sizeof(R) == sizeof(float));
-  std::unique_ptr<schedule<D, R>> typed(&dynamic_cast<schedule<D, R>&>(*made));
-  (void)made.release();
-  typed->configure(this->setup_, cell_bytes());
-  return typed;
+  auto untyped = make_(D, std::is_same_v<R, float>);
+  if (untyped == nullptr)
+    throw error("backend " + std::string(traits_.name) + " was not compiled for " + std::to_string(D) + "D in " +
+                std::string(precision_name<R>()) + ": see PAIRSUM_DIMS and PAIRSUM_PRECISIONS of its library");
+  auto made = cast<schedule<D, R>>(std::move(untyped));
+  made->configure(this->setup_, cell_bytes());
+  return made;
 }
 
 /// What a sum touches of a cell's particles, at the talk's spacing of H/2.
@@ -144,7 +144,6 @@ template <int D, class R>
 void summation_in<D, R>::zero(const team& t) {
   check_kind(t);
   if (traits_.symmetric) {
-    view_.is_zero = rows_ && rows_->is_zero();
     schedule_->zero(view_, t);
   } else if (lane_ != nullptr) {  // gathers add to the columns
     t.for_pieces(view_.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -157,7 +156,7 @@ template <int D, class R>
 void summation_in<D, R>::sum(const team& t) {
   check_kind(t);
   check_prepared(view_.threads, t);
-  if (rows_) rows_->summed();
+  view_.is_zero = false;
   schedule_->sum(view_, t, traits_, pass_marks(this->observer_));
 }
 
@@ -181,10 +180,9 @@ work_counts summation_in<D, R>::count_work() {
   p.boundary_reach2 = p.reach2;
   p.pairs = &no_formula<D, R>();
   p.counts = &counts;
-  with_one_thread(traits_.threads, [&](const team& one) {
-    made->prepare(p, one);
-    made->sum(p, one, traits_, pass_marks());
-  });
+  const workers one(traits_.threads, 1);
+  made->prepare(p, one.get());
+  made->sum(p, one.get(), traits_, pass_marks());
   counts.cells = p.cells().total;
   counts.cells_nonempty = p.cells().nonempty();
   return counts;

@@ -2,13 +2,11 @@
 #include <memory>
 #include <optional>
 
+#include <pairsum/core/isa.hpp>
 #include <pairsum/sum/schedule.hpp>
 #include <pairsum/sum/state.hpp>
 
 namespace pairsum {
-
-/// What makes the schedule of a backend.
-using schedule_maker = std::unique_ptr<any_schedule> (*)(int dim, bool single);
 
 /// A schedule with a formula: the one implementation of `summation`.
 template <int D, class R>
@@ -31,7 +29,7 @@ class summation_in final : public state<D, R> {
   work_counts count_work() override;
   std::string block() const override { return schedule_->block(); }
   std::size_t lanes() const override { return lane_ == nullptr ? 1 : lane_->lanes; }
-  std::string_view isa() const override { return lane_ == nullptr ? "scalar" : lane_->isa; }
+  std::string_view isa() const override { return lane_ == nullptr ? scalar_isa : lane_->isa; }
   rate_table rates() const override;
   std::uint64_t fingerprint() const override;
   dynamics<D, R> rates_of_state() const override { return formula_->rates_of_state(); }

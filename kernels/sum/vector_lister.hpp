@@ -7,12 +7,6 @@
 
 namespace pairsum {
 
-/// Where particles lie as rows.
-struct row_memory {
-  std::byte* rows = nullptr;  ///< on 64-byte boundaries
-  std::size_t stride = 0;     ///< bytes
-};
-
 /// Lists rows on the vector units of one instruction set. Fluid partners may be a little out of reach: whoever takes
 /// them decides in the working precision. Behind a row's fluid partners are row_padding more, numbers from `spare` on.
 template <int D>

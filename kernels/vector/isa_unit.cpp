@@ -1,4 +1,5 @@
 // Compiled once for each instruction set, with its flags: who finds pairs on its vector units.
+#include <pairsum/core/places.hpp>
 #include <pairsum/formula/formulas.hpp>
 #include <pairsum/vector/lane_lister.hpp>
 #include <pairsum/vector/listers.hpp>
@@ -12,8 +13,7 @@ vector_lister<D> lister_on(const isa*) {
   using lister = lane_lister<D, lane_vector<float>>;
   return {isa::name, &lister::list};
 }
-template vector_lister<1> lister_on<1>(const isa*);
-template vector_lister<2> lister_on<2>(const isa*);
-template vector_lister<3> lister_on<3>(const isa*);
+#define PAIRSUM_LISTER(D) template vector_lister<D> lister_on<D>(const isa*);
+PAIRSUM_EACH_D(PAIRSUM_LISTER)
 
 }  // namespace pairsum

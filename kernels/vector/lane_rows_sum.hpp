@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <limits>
 
 #include <pairsum/formula/formula_view.hpp>

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include <pairsum/core/places.hpp>
 #include <pairsum/formula/formulas.hpp>
 
 namespace pairsum {
@@ -15,8 +16,7 @@ std::span<const vector_lister<D>> vector_listers() {
   }();
   return all;
 }
-template std::span<const vector_lister<1>> vector_listers();
-template std::span<const vector_lister<2>> vector_listers();
-template std::span<const vector_lister<3>> vector_listers();
+#define PAIRSUM_LISTERS(D) template std::span<const vector_lister<D>> vector_listers();
+PAIRSUM_EACH_D(PAIRSUM_LISTERS)
 
 }  // namespace pairsum

@@ -248,3 +248,4 @@ def test_bench_speaks_google_benchmark(pairsum):
     assert "symmetric_omp/dam_break/M:3/threads:2/manual_time" in names
     assert "smoothing/wendland_c2" in names and "hashing/M:6" in names and "counting_sort/bits:12" in names
     assert sum("symmetric/" in n for n in names) == 1
+    assert not any("isa:" in n for n in names)  # each on what its backend takes by default

@@ -41,6 +41,15 @@ def test_tune_of_the_sum_alone(pairsum):
     assert " ms a sum" in done.stdout
 
 
+def test_all_isas_are_scalar_and_the_vector_units(pairsum):
+    built = json.loads(pairsum("list", "--json").stdout)["isas"]
+    done = pairsum("tune", "--dx", "0.08", "--M", "3", "--threads", "1", "--backend", "symmetric", "--grid", "hashed_grid",
+                   "--budget", "10", "--binding", "none", "--isa", "all")
+    assert done.returncode == 0, done.stderr
+    found = re.findall(r"(?:take |^)symmetric M=3 threads=1 (?:(\w+) )?double", done.stdout, re.M)
+    assert sorted(found) == sorted(["", *built]), done.stdout
+
+
 def test_run_takes_the_words_of_a_profile_and_options_go_before_them(pairsum, profile, tmp_path):
     words = dict(word.split("=") for word in json.loads(profile.read_text())["words"].split())
     done = pairsum("run", "--profile", profile, "--rounds", 1, "--state", "perturbed", "--out", "rows.jsonl")

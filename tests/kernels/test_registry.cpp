@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "library_formulas.hpp"
 #include "scene.hpp"
 
 namespace pairsum {
@@ -25,7 +26,6 @@ TEST(registry, lists_the_algorithms_of_the_talk_each_once) {
 /// What is wrong with how a backend says that it keeps threads apart; empty if nothing.
 std::string fault_of_conflicts(const backend_traits& t) {
   const bool serial = t.conflicts == conflict_avoidance::serial, gather = t.conflicts == conflict_avoidance::gather;
-  if (t.conflicts == conflict_avoidance::unsaid) return "does not say how it keeps threads apart";
   if (serial != (t.threads == runtime::serial)) return "is serial on several threads, or has one and is not";
   if (gather && t.symmetric) return "gathers, but computes each pair once";
   return "";
@@ -39,7 +39,7 @@ TEST(registry, every_backend_says_how_it_keeps_threads_apart) {
 TEST(registry, a_wrong_word_for_how_threads_are_kept_apart_is_found) {
   backend_traits t = registry::instance().find_backend("symmetric_omp").traits;
   EXPECT_EQ(fault_of_conflicts(t), "");
-  for (const auto wrong : {conflict_avoidance::unsaid, conflict_avoidance::serial, conflict_avoidance::gather}) {
+  for (const auto wrong : {conflict_avoidance::serial, conflict_avoidance::gather}) {
     t.conflicts = wrong;
     EXPECT_NE(fault_of_conflicts(t), "") << name_of(wrong);
   }
@@ -84,6 +84,14 @@ TEST(registry, unknown_words_are_errors_that_list_the_valid_ones) {
   s.dim = 7;
   EXPECT_TRUE(says(refusal(s), {"dimension", "\"7\"", "valid: ", "3"})) << refusal(s);
   EXPECT_NE(error_of([&] { (void)registry::instance().make_reference(s); }), "");
+}
+
+TEST(registry, a_backend_that_was_not_compiled_for_a_dimension_says_so) {
+  registry r;
+  r.add(backend_entry{{.name = "of_another_build"}, [](int, bool) { return std::unique_ptr<any_schedule>(); }});
+  r.add(counting_formula<3>());
+  const setup s = with(make_scene("dam_break", 0.1, "rest").world, "of_another_build", 3, "count");
+  EXPECT_TRUE(says(error_of([&] { (void)r.make_summation(s); }), {"of_another_build", "3D in double", "PAIRSUM_DIMS"}));
 }
 
 TEST(registry, an_unavailable_backend_is_listed_and_says_what_it_needs) {

@@ -98,11 +98,9 @@ class unit_trace : public unit_observer {
 /// A backend's schedule.
 template <int D>
 std::unique_ptr<schedule<D, double>> schedule_of(const backend_entry& b, const setup& s) {
-  auto made = b.make(D, false);
-  std::unique_ptr<schedule<D, double>> typed(&dynamic_cast<schedule<D, double>&>(*made));
-  (void)made.release();
-  typed->configure(s, 1000);
-  return typed;
+  auto made = cast<schedule<D, double>>(b.make(D, false));
+  made->configure(s, 1000);
+  return made;
 }
 
 /// What the units of a backend write to; `look(p, schedule, trace)` sees it.

@@ -16,7 +16,7 @@ PLUGIN = "kernels/plugin.hpp"  # for shared objects and the program that loads t
 ALONE_AT_THE_TOP = {UMBRELLA, TOP, PLUGIN}
 ALLOWED = {  # folder: folders and headers it may include, besides itself
     UMBRELLA: ["core", "cases", "interactions", "smoothing", "sum", "integrators", "formula/entry.hpp", "vector/own_lanes.hpp"],
-    TOP: ["cases", "integrators", "sum", "formula/words.hpp", "registry.def"],
+    TOP: ["cases", "core", "integrators", "sum", "formula/words.hpp", "registry.def"],
     PLUGIN: ["build_word.hpp"],
     "core": [],
     "pattern": ["core"],
