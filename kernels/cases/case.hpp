@@ -17,7 +17,7 @@ struct case_parameters {
   std::uint64_t seed = 1;      ///< of the perturbation and of random places
 };
 
-/// Particles with the world they live in. SI units.
+/// Particles with the domain they lie in. SI units.
 struct initial_condition {
   particle_table particles;
   std::vector<double> omega_low, omega_high;  ///< m

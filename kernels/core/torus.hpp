@@ -7,14 +7,14 @@
 
 namespace pairsum {
 
-/// What is the way from one point of Omega to another. In a periodic box it is the shortest of those through and not
-/// through the faces, the minimum image; points are compared in this one expression everywhere. Way and way back are
-/// the same to the last bit, so i and j agree on whether they interact.
+/// The displacement between two points of Omega. In a periodic box it is the minimum image: the shortest of the
+/// displacements through and not through the faces. All code uses this one expression. x_i - x_j and x_j - x_i are
+/// equal to the last bit but for the sign, so i and j agree on whether they interact.
 template <int D, class R>
 struct torus {
   bool periodic = false;
   vec<D, R> edge = vec<D, R>::Zero(), half = edge;  ///< m; of a periodic box
-  vec<D, R> inner_low = edge, inner_high = edge;    ///< who lies between has all neighbours on this side of the faces
+  vec<D, R> inner_low = edge, inner_high = edge;    ///< neighbours of points between these lie inside of the faces
 
   torus() = default;
   torus(const box<D, R>& omega, R H) : periodic(omega.periodic) {
@@ -39,17 +39,17 @@ struct torus {
     for (int d = 0; d < D; ++d) near = near || !(x[d] >= inner_low[d] && x[d] <= inner_high[d]);
     return near;
   }
-  /// At most how much a way through the faces differs by rounding, m; 0 without periodic faces.
+  /// How much rounding changes a displacement through the faces at most, m; 0 without periodic faces.
   R rounding() const { return periodic ? std::numeric_limits<R>::epsilon() * edge.maxCoeff() : R(0); }
-  /// Makes r the shortest of the ways that are r but for whole edges, |r| being at most an edge per component.
-  [[gnu::always_inline]] void shorten(vec<D, R>& r) const {
+  /// Makes r its minimum image; each component of r is at most an edge.
+  [[gnu::always_inline]] void to_minimum_image(vec<D, R>& r) const {
     for (int d = 0; d < D; ++d) r[d] -= r[d] > half[d] ? edge[d] : r[d] < -half[d] ? -edge[d] : R(0);
   }
 };
 
-/// A point of Omega, as it is seen when the ways to others are asked for: the difference of two is the way from the
-/// second to the first. The first decides whether ways through the faces are looked at, so in a loop over the second
-/// nothing is asked that does not hold for all of it. Right for points less than H apart.
+/// A point of Omega whose differences are minimum-image displacements: the difference of two points leads from the
+/// second to the first. The first one decides whether faces are considered, so a loop over the second has no branch
+/// that differs from point to point. Right for points less than H apart.
 template <int D, class R>
 struct point {
   vec<D, R> x;
@@ -62,7 +62,7 @@ struct point {
   [[gnu::always_inline]] friend vec<D, R> operator-(const point& a, const vec<D, R>& b) {
     vec<D, R> r = a.x - b;
     if (a.across != nullptr) [[unlikely]]
-      a.across->shorten(r);
+      a.across->to_minimum_image(r);
     return r;
   }
   [[gnu::always_inline]] friend vec<D, R> operator-(const vec<D, R>& a, const point& b) { return -(b - a); }

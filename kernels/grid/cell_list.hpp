@@ -23,7 +23,7 @@ struct cell_place {
   }
 };
 
-/// The cells that particles are in, ascending, in however large a world: memory grows with the cells that hold
+/// The cells that particles are in, ascending, in however large a domain: memory grows with the cells that hold
 /// particles alone. A cell's rank in the list is its number.
 template <int D, class R>
 class cell_list {

@@ -10,7 +10,7 @@ namespace pairsum {
 
 /// A grid of the cells that hold particles and no others, as wide as those of the hashed grid and sorted x fastest; no
 /// two cells fold together. Neighbours are found in the sorted list of cells, so neither time nor memory depends on how
-/// large the world is.
+/// large the domain is.
 ///
 /// A cell's key is its number in the box around the particles, or in the periodic box, while that has at most 2^30
 /// cells, else its rank in the list; both ascend alike, so the order of the particles is the same.

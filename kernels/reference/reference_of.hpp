@@ -36,7 +36,7 @@ class reference_of final : public reference {
         torus_(make_torus<D, R>(s)) {}
 
   expectation brute_force(const particle_table& table, const team& t, std::vector<std::uint32_t> ids) const override {
-    const world w(*this, table, ids.empty());
+    const input w(*this, table, ids.empty());
     if (ids.empty()) ids = w.fluid;
     return evaluate(w, ids, t, [&](std::uint32_t, auto&& meet) {
       for (std::uint32_t j = 0; j < table.size(); ++j) meet(j);
@@ -44,7 +44,7 @@ class reference_of final : public reference {
   }
 
   expectation cell_search(const particle_table& table, const team& t) const override {
-    const world w(*this, table, true);
+    const input w(*this, table, true);
     const cell_search_of<D, R> s(w.x, w.kind, H_, omega_);
     return evaluate(w, w.fluid, t, [&](std::uint32_t i, auto&& meet) { s.around(w.x[i], meet); });
   }
@@ -53,7 +53,7 @@ class reference_of final : public reference {
 
  private:
   /// The particles, rounded to R; what they bring to a pair is derived when it is asked for, or beforehand for all.
-  struct world {
+  struct input {
     const reference_of& f;
     const particle_table& table;
     std::vector<vec<D, R>> x;
@@ -61,7 +61,7 @@ class reference_of final : public reference {
     const std::vector<particle_kind>& kind;
     std::vector<std::uint32_t> fluid;
 
-    world(const reference_of& owner, const particle_table& t, bool derive_all)
+    input(const reference_of& owner, const particle_table& t, bool derive_all)
         : f(owner), table(t), x(t.size()), kind(t.kind) {
       for (std::uint32_t i = 0; i < t.size(); ++i) {
         for (int d = 0; d < D; ++d) {
@@ -130,7 +130,7 @@ class reference_of final : public reference {
   };
 
   template <class Candidates>
-  expectation evaluate(const world& w, const std::vector<std::uint32_t>& ids, const team& t,
+  expectation evaluate(const input& w, const std::vector<std::uint32_t>& ids, const team& t,
                        Candidates&& candidates) const {
     expectation out;
     out.names = rate_names<I>();
@@ -149,7 +149,7 @@ class reference_of final : public reference {
         candidates(i, [&](std::uint32_t j) {
           if (j == i || w.kind[j] == particle_kind::lost) return;
           vec<D, R> r = w.x[i] - w.x[j];
-          if (torus_.periodic) torus_.shorten(r);
+          if (torus_.periodic) torus_.to_minimum_image(r);
           const R r2 = norm2<D, R>(r);
           if (!(r2 < H_ * H_)) return;
           if (w.kind[j] == particle_kind::boundary) {

@@ -50,7 +50,7 @@ void check_columns(const particle_table& p) {
 
 }  // namespace
 
-void check_world(const setup& s) {
+void check_domain(const setup& s) {
   if (!(s.constants.H > 0) || !std::isfinite(s.constants.H))
     throw error("the support radius H must be a positive length, is " + text(s.constants.H));
   const precision_range range = range_of(s.precision);
@@ -79,7 +79,7 @@ void check_input(const particle_table& p, const setup& s) {
   if (p.dim != s.dim)
     throw error("the particles are " + std::to_string(p.dim) + "D, the summation is " + std::to_string(s.dim) + "D");
   check_columns(p);
-  check_world(s);
+  check_domain(s);
   if (p.size() >= (std::size_t{1} << 32) - 1024) throw error("at most 2^32 - 1025 particles can be summed");
   const bool single = s.precision != precision_name<double>();  // what a pair's terms are made of must fit
   const bool single_position = s.precision == precision_name<float>();

@@ -17,7 +17,7 @@ template <class R>
 void check_apart(const particle_table& p, std::string_view interaction, const setup& s);
 
 /// Throws pairsum::error for an H or an Omega that no particles could make good.
-void check_world(const setup& s);
+void check_domain(const setup& s);
 
 /// Throws pairsum::error unless `order` is empty or names each of `rows` ids once.
 void check_order(const std::vector<std::uint32_t>& order, std::size_t rows);

@@ -23,7 +23,7 @@ bool grid_takes_M(std::string_view grid) {
 
 template <int D, class R>
 std::unique_ptr<grid<D, R>> make_grid(const setup& s) {
-  check_world(s);
+  check_domain(s);
   const box<D, R> omega = make_box<D, R>(s);
   const R H = static_cast<R>(s.constants.H);
   if (s.grid == hashed_grid<D, R>::name) return std::make_unique<hashed_grid<D, R>>(omega, H, s.M);

@@ -16,7 +16,7 @@ template <int D, class R, class At>
     for (std::uint32_t k = begin; k < end; ++k) {
       const std::uint32_t j = at(k);
       vec<D, R> r = x_i.x - x[j];
-      x_i.across->shorten(r);
+      x_i.across->to_minimum_image(r);
       *to = j;
       to += norm2<D, R>(r) < reach2;
     }

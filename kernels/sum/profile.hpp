@@ -18,7 +18,7 @@ struct profile {
   int threads = 1;  ///< for the team that sums
   std::string granularity = "default";  ///< for parse_granularity, unless it is "default"
 
-  /// The same words in another setup, whose world, formula and cache stay as they are.
+  /// The same words in another setup, whose domain, formula and cache stay as they are.
   setup in(setup s) const {
     s.backend = words.backend;
     s.grid = words.grid;

@@ -155,7 +155,7 @@ std::unique_ptr<summation> registry::make_summation(const setup& s) const {
 }
 
 std::unique_ptr<reference> registry::make_reference(const setup& s) const {
-  check_world(s);
+  check_domain(s);
   return find_formula(s).oracle(s);
 }
 

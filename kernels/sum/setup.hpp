@@ -6,7 +6,7 @@
 
 namespace pairsum {
 
-/// Names one summation, in the words of the command line, and the world it happens in.
+/// Names one summation, in the words of the command line, and its domain.
 struct setup {
   std::string backend = "symmetric";
   std::string interaction = "ferrari09";

@@ -4,7 +4,7 @@
 
 namespace pairsum {
 
-/// The world of a case: Omega, dimension and constants; the words are left at their defaults.
+/// The domain of a case: Omega, dimension and constants; the words are left at their defaults.
 inline setup setup_of(const initial_condition& c) {
   setup s;
   s.dim = c.particles.dim;

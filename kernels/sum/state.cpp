@@ -28,7 +28,7 @@ std::unique_ptr<grid<D, R>> grid_with_skin(const setup& s, double skin) {
 
 template <int D, class R>
 state<D, R>::state(const setup& s, double skin)
-    : setup_((check_world(s), s)), index_(make_box<D, R>(s), grid_with_skin<D, R>(s, skin)) {}
+    : setup_((check_domain(s), s)), index_(make_box<D, R>(s), grid_with_skin<D, R>(s, skin)) {}
 
 template <int D, class R>
 state<D, R>::~state() = default;

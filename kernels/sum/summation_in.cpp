@@ -43,6 +43,10 @@ void summation_in<D, R>::choose_lanes() {
           lane_ = &sum;
           lister_ = &lister;
         }
+    if (lane_ == nullptr && built.empty() && isa != best_isa)
+      throw error("interaction " + s.interaction +
+                  " has no sums on vector units, as those of whole numbers have none: take isa " +
+                  std::string(scalar_isa));
     if (lane_ == nullptr && !built.empty())
       throw error("interaction " + s.interaction + " was not compiled for isa " + isa +
                   "; one of one's own is compiled for one set, by the flags of its source: take isa " +

@@ -34,8 +34,8 @@ HWY_INLINE Mask decide_near_ties(const problem<D, R>& p, Mask in, V r2, R reach2
   return decide_lanes(p, in, close, reach2, i, other, d);
 }
 
-/// Components of displacements, an edge shorter where they go through a face of a periodic box: as torus::shorten()
-/// rounds.
+/// Components of displacements, an edge shorter where they go through a face of a periodic box: as
+/// torus::to_minimum_image() rounds.
 template <class V, class R>
 HWY_INLINE V shortest_lanes(V r, R edge) {
   const hn::DFromV<V> d;

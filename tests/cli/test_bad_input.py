@@ -1,6 +1,7 @@
 """Bad input: one clear line, exit code 2, nothing lost or half-written."""
 
 import json
+import platform
 
 import pytest
 from conftest import SMALL, refused
@@ -43,6 +44,7 @@ BAD_RUNS = [
     (["--grid", "hashed_grid,"], ["--grid"]),
     (["--isa", "nope"], ["nope"]),
     (["--isa", "best", "--backend", "atomic_add"], ["atomic_add has no vector units", "scalar"]),
+    (["--isa", "sse4" if platform.machine() == "x86_64" else "neon", "--interaction", "count"], ["count", "whole numbers", "isa scalar"]),
     (["--block", "slab:0"], ["slab:0", "pencil:N"]),
     (["--block", "slab:4:morton"], ["slab:4:morton", "pencil:N"]),
     (["--block", "4"], ['"4"', "auto"]),

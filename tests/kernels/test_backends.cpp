@@ -67,7 +67,7 @@ TEST_P(backends_test, is_within_the_bound_on_every_grid_and_team) {
       }
       const work_counts n = sum->count_work();
       ASSERT_EQ(n.pairs_fluid_fluid, e.pairs_fluid_fluid) << grid;
-      EXPECT_EQ(sum->isa(), world.interaction == "count" ? "scalar" : world.isa);
+      EXPECT_EQ(sum->isa(), world.isa);
     }
   });
 }
