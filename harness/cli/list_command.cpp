@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include <pairsum/cases/case.hpp>
 #include <pairsum/core/isa.hpp>
@@ -14,6 +15,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/plan/study.hpp"
 #include "harness/plugin/plugins.hpp"
+#include "harness/run/describe_backend.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -53,19 +55,14 @@ nlohmann::json as_json() {
                      {"isas", isa_names()},
                      {"orders", memory_orders},
                      {"states", case_states}};
-  for (const backend_entry& b : r.backends())
-    all["backends"].push_back(
-        {{"name", b.traits.name},
-         {"description", b.traits.description},
-         {"aliases", b.traits.aliases},
-         {"threads", name_of(b.traits.threads)},
-         {"symmetric", b.traits.symmetric},
-         {"deterministic", b.traits.deterministic},
-         {"conflicts", name_of(b.traits.conflicts)},
-         {"vector", b.traits.vector},
-         {"blocks", b.traits.blocks},
-         {"precisions", precisions_of(b, r)},
-         {"unavailable", b.unavailable.empty() ? nlohmann::json() : nlohmann::json(b.unavailable)}});
+  for (const backend_entry& b : r.backends()) {
+    nlohmann::json entry = describe_backend(b.traits);
+    for (const char* of_a_study : {"schema", "kind", "study", "utc", "environment", "self_test"})
+      entry.erase(of_a_study);
+    entry["precisions"] = precisions_of(b, r);
+    entry["unavailable"] = b.unavailable.empty() ? nlohmann::json() : nlohmann::json(b.unavailable);
+    all["backends"].push_back(std::move(entry));
+  }
   all["grids_with_M"] = nlohmann::json::array();
   for (const std::string_view grid : grid_names())
     if (grid_takes_M(grid)) all["grids_with_M"].push_back(grid);

@@ -83,7 +83,7 @@ std::optional<double> fields::number_or_null(const char* key) {
   return value.get<double>();
 }
 
-std::optional<double> fields::seconds_or_null(const char* key) {
+std::optional<double> fields::amount_or_null(const char* key) {
   const auto value = number_or_null(key);
   if (value && *value < 0) reject(key, "a number >= 0 or null");
   return value;
@@ -165,10 +165,13 @@ std::string fields::utc(const char* key) {
   return value;
 }
 
-void fields::literal(const char* key, const char* expected) {
+std::string fields::word(const char* key, std::initializer_list<const char*> words) {
   const auto& value = at(key);
-  if (value.is_string() && value == expected) return;
-  throw error("key \"" + prefix_ + key + "\" should be \"" + expected + "\", is " +
+  if (value.is_string() && std::find(words.begin(), words.end(), value) != words.end()) return value;
+  std::string expected;
+  for (const char* const w : words)
+    expected += (expected.empty() ? "" : w == *(words.end() - 1) ? " or " : ", ") + ('"' + std::string(w) + '"');
+  throw error("key \"" + prefix_ + key + "\" should be " + expected + ", is " +
               (value.is_string() ? value.dump() : describe(value)));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -24,7 +25,9 @@ class fields {
   double number(const char* key);
   std::optional<double> number_or_null(const char* key);
   /// Seconds: a number >= 0 or null.
-  std::optional<double> seconds_or_null(const char* key);
+  std::optional<double> seconds_or_null(const char* key) { return amount_or_null(key); }
+  /// A number >= 0 or null.
+  std::optional<double> amount_or_null(const char* key);
   /// A list of lists of seconds, or null.
   std::optional<std::vector<std::vector<double>>> seconds_table_or_null(const char* key);
   /// A number > 0.
@@ -40,8 +43,10 @@ class fields {
   std::optional<std::string> hex_or_null(const char* key);
   /// A UTC time like 2026-11-22T15:30:00.123Z.
   std::string utc(const char* key);
+  /// One of these words.
+  std::string word(const char* key, std::initializer_list<const char*> words);
   /// Throws unless the key holds exactly this text.
-  void literal(const char* key, const char* expected);
+  void literal(const char* key, const char* expected) { word(key, {expected}); }
 
   /// Throws if the object has a key that was not asked for.
   void finish() const;

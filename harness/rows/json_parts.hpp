@@ -32,14 +32,15 @@ nlohmann::json head(const char* kind, const Row& row) {
   return j;
 }
 
-/// Reads them; an error says which is wrong.
+/// Reads them; an error says which is wrong. Returns whether the row is of the former schema.
 template <class Row>
-void read_head(fields& from, const char* kind, Row& row) {
-  from.literal("schema", row_schema);
+bool read_head(fields& from, const char* kind, Row& row) {
+  const bool former = from.word("schema", {row_schema, former_row_schema}) == former_row_schema;
   from.literal("kind", kind);
   row.study = from.text("study");
   row.utc = from.utc("utc");
   if constexpr (requires { row.environment; }) row.environment = from.hex("environment");
+  return former;
 }
 
 }  // namespace pairsum::harness

@@ -1,12 +1,11 @@
 #include "harness/rows/reader.hpp"
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <map>
+#include <iterator>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
 #include <utility>
 
 #include <pairsum/core/error.hpp>
@@ -16,31 +15,40 @@ namespace {
 
 using nlohmann::json;
 
-std::string read_text(const std::filesystem::path& path) {
+std::atomic<std::uint64_t> bytes_read = 0;
+
+/// What stands behind the first `offset` bytes of a file.
+std::string read_text(const std::filesystem::path& path, std::size_t offset) {
   std::error_code code;
   if (std::filesystem::is_directory(path, code)) throw error(path.string() + ": is a folder, should be a rows file");
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
     throw error(path.string() + ": is no regular file, should be a rows file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw error(path.string() + ": cannot be read: " + std::strerror(errno));
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  file.seekg(static_cast<std::streamoff>(offset));
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  bytes_read += text.size();
+  return text;
 }
 
-/// Adds the rows of one text line by line, and knows where it is for the messages.
-class line_parser {
+}  // namespace
+
+/// Adds the rows of what was appended line by line, and knows where it is for the messages.
+class rows_reader::parser {
  public:
-  line_parser(const std::string& text, rows_file& rows) : text_(text), rows_(rows) {}
+  parser(const std::string& text, rows_reader& to) : text_(text), to_(to), rows_(to.rows_) {}
 
   void parse(cut_line last_line) {
+    rows_.last_line_cut = false;
     for (std::size_t begin = 0; begin < text_.size();) {
-      ++number_;
+      number_ = to_.lines_ + 1;
       const std::size_t newline = text_.find('\n', begin);
       const bool whole = newline != std::string::npos;
       const std::size_t end = whole ? newline : text_.size();
       const bool last = !whole || newline + 1 == text_.size();
       if (parse_line(text_.substr(begin, end - begin), whole, last, last_line)) break;
+      ++to_.lines_;
+      to_.offset_ += end + 1 - begin;
       begin = end + 1;
     }
   }
@@ -80,7 +88,10 @@ class line_parser {
     }
     if (!parsed) fail(why);
     try {
-      add(parse_row(j));
+      row r = parse_row(j);
+      former_ = j.at("schema") == former_row_schema;
+      rows_.former_schema = rows_.former_schema || former_;
+      std::visit([this](auto& v) { keep(std::move(v)); }, r);
     } catch (const error& e) {
       fail(e.what());
     }
@@ -96,16 +107,18 @@ class line_parser {
   }
 
   void known(const std::string& environment) const {
-    if (known_.count(environment) == 0)
+    if (!to_.known_.environments.contains(environment))
       throw error("key \"environment\" should name an environment row before it, is \"" + environment + "\"");
   }
 
-  void add(row&& r) {
-    std::visit([this](auto& v) { keep(std::move(v)); }, r);
-  }
   void keep(environment_row&& e) {
-    known_.insert(e.environment);
+    to_.known_.environments.insert(e.environment);
     rows_.environments.push_back(std::move(e));
+  }
+  void keep(backend_row&& b) {
+    known(b.environment);
+    to_.known_.backends.emplace(b.environment, b.name);
+    rows_.backends.push_back(std::move(b));
   }
   void keep(void_row&& v) { rows_.voids.push_back(std::move(v)); }
   void keep(end_row&& e) {
@@ -117,7 +130,7 @@ class line_parser {
     rows_.peaks.push_back(std::move(p));
   }
   void still_open(const std::string& study, int round) const {
-    if (closed_.count({study, round}) != 0)
+    if (to_.closed_.contains({study, round}))
       throw error("key \"round\" names round " + std::to_string(round) + ", which a round row before it has closed");
   }
   void keep(pace_row&& p) {
@@ -127,14 +140,17 @@ class line_parser {
   }
   void keep(sample&& s) {
     known(s.environment);
+    if (!former_ && !to_.known_.backends.contains({s.environment, s.point.backend}))
+      throw error("key \"point.backend\" should name a backend row of its environment before it, is \"" +
+                  s.point.backend + "\"");
     still_open(s.study, s.round);
-    ++samples_[{s.study, s.round}];
+    ++to_.samples_[{s.study, s.round}];
     rows_.samples.push_back(std::move(s));
   }
   void keep(round_row&& r) {
     known(r.environment);
-    const std::uint64_t found = samples_[{r.study, r.round}];
-    if (!closed_.emplace(r.study, r.round).second)
+    const std::uint64_t found = to_.samples_[{r.study, r.round}];
+    if (!to_.closed_.emplace(r.study, r.round).second)
       throw error("key \"round\" names round " + std::to_string(r.round) + ", which is closed already");
     if (found != r.rows)
       throw error("key \"rows\" should be the number of samples of the round, " + std::to_string(found) + ", is " +
@@ -143,12 +159,13 @@ class line_parser {
   }
 
   const std::string& text_;
+  rows_reader& to_;
   rows_file& rows_;
   std::size_t number_ = 0;
-  std::set<std::string> known_;
-  std::map<std::pair<std::string, int>, std::uint64_t> samples_;
-  std::set<std::pair<std::string, int>> closed_;
+  bool former_ = false;
 };
+
+namespace {
 
 using round_set = std::set<std::pair<std::string, int>>;
 
@@ -194,13 +211,38 @@ std::vector<std::pair<std::string, int>> rows_file::unfinished_rounds() const {
   return open;
 }
 
-rows_file read_rows(const std::filesystem::path& path, cut_line last_line) {
-  rows_file rows;
-  rows.path = path;
-  const std::string text = read_text(path);
-  if (text.empty()) throw error(path.string() + ": is empty, should hold rows of " + row_schema);
-  line_parser(text, rows).parse(last_line);
-  return rows;
+rows_reader::rows_reader(std::filesystem::path path) { rows_.path = std::move(path); }
+
+bool rows_reader::has_rows() const {
+  std::error_code code;
+  if (!std::filesystem::exists(rows_.path, code)) return false;
+  return !std::filesystem::is_regular_file(rows_.path, code) || std::filesystem::file_size(rows_.path, code) > 0;
 }
+
+void rows_reader::read_on(cut_line last_line) {
+  const std::string text = read_text(rows_.path, offset_);
+  if (text.empty() && offset_ == 0) throw error(rows_.path.string() + ": is empty, should hold rows of " + row_schema);
+  parser(text, *this).parse(last_line);
+}
+
+std::size_t rows_reader::drop_cut_line() {
+  if (!has_rows()) return 0;
+  read_on(cut_line::drop);
+  if (!rows_.last_line_cut) return 0;
+  std::error_code code;
+  const auto size = std::filesystem::file_size(rows_.path, code);
+  if (!code) std::filesystem::resize_file(rows_.path, offset_, code);
+  if (code) throw error("cannot write rows to " + rows_.path.string() + ": " + code.message());
+  rows_.last_line_cut = false;
+  return static_cast<std::size_t>(size) - offset_;
+}
+
+rows_file read_rows(const std::filesystem::path& path, cut_line last_line) {
+  rows_reader reader(path);
+  reader.read_on(last_line);
+  return reader.rows();
+}
+
+std::uint64_t bytes_of_rows_read() { return bytes_read; }
 
 }  // namespace pairsum::harness

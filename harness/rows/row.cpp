@@ -27,7 +27,7 @@ json pass_times(const std::optional<thread_times>& times) {
   return passes;
 }
 
-point read_point(fields from) {
+point read_point(fields from, bool former) {
   point p;
   p.case_name = from.text("case");
   p.state = from.text("state");
@@ -48,7 +48,7 @@ point read_point(fields from) {
   p.threads = from.integer("threads", 1);
   p.granularity = from.text("granularity");
   p.isa = from.text("isa");
-  if (from.has("block")) p.block = from.text("block");  // rows of before there were blocks have none
+  if (!former || from.has("block")) p.block = from.text("block");  // rows of before there were blocks have none
   from.finish();
   return p;
 }
@@ -74,7 +74,7 @@ constexpr work_member work_members[] = {{"cells", &work_row::cells},
                                         {"pairs_fluid_fluid", &work_row::pairs_fluid_fluid},
                                         {"pairs_fluid_boundary", &work_row::pairs_fluid_boundary}};
 
-work_row read_work(fields from) {
+work_row read_work(fields from, bool former) {
   work_row w;
   for (const work_member& member : work_members) w.*member.value = from.count(member.name);
   w.pairs_tested_unfolded = from.count_or_null("pairs_tested_unfolded");
@@ -82,6 +82,10 @@ work_row read_work(fields from) {
     fields units = from.nested("vector_units");
     w.vector_units = {units.text("block"), units.count("lanes"), units.count("vectors"), units.number("occupancy")};
     units.finish();
+  }
+  if (!former) {
+    w.flops = from.amount_or_null("flops");
+    w.bytes = from.amount_or_null("bytes");
   }
   from.finish();
   return w;
@@ -150,6 +154,8 @@ void to_json(json& j, const work_row& w) {
   for (const work_member& member : work_members) j[member.name] = w.*member.value;
   j["pairs_tested_unfolded"] = or_null(w.pairs_tested_unfolded);
   if (w.vector_units) j["vector_units"] = *w.vector_units;
+  j["flops"] = finite(w.flops);
+  j["bytes"] = finite(w.bytes);
 }
 
 void to_json(json& j, const counters_row& c) {
@@ -178,25 +184,27 @@ void to_json(json& j, const sample& s) {
   j["work"] = or_null(s.work);
   j["peak_rss_bytes"] = or_null(s.peak_rss_bytes);
   j["workspace_bytes"] = or_null(s.workspace_bytes);
+  j["lost"] = or_null(s.lost);
+  j["threads_worked"] = or_null(s.threads_worked);
   j["verify"] = s.verify;
   if (s.error) j["error"] = *s.error;
 }
 
-void from_json(const json& j, point& p) { p = read_point(fields(j)); }
+void from_json(const json& j, point& p) { p = read_point(fields(j), false); }
 void from_json(const json& j, phases& p) { p = read_phases(fields(j)); }
-void from_json(const json& j, work_row& w) { w = read_work(fields(j)); }
+void from_json(const json& j, work_row& w) { w = read_work(fields(j), false); }
 void from_json(const json& j, verify_row& v) { v = read_verify(fields(j)); }
 
 void from_json(const json& j, sample& s) {
   fields from(j);
-  read_head(from, "sample", s);
+  const bool former = read_head(from, "sample", s);
   s.part = from.text("part");
   s.round = from.integer("round", 1);
   s.slot = from.integer("slot", 1);
   s.repetition = from.integer("repetition", 1);
   s.step = from.integer("step", 1);
   s.seed = from.count("seed");
-  s.point = read_point(from.nested("point"));
+  s.point = read_point(from.nested("point"), former);
   s.error.reset();
   if (from.has("error")) s.error = from.text("error");
   s.phases = read_or_null<phases>(from, "phases", read_phases);
@@ -205,10 +213,14 @@ void from_json(const json& j, sample& s) {
   s.threads_busy_s = from.seconds_table_or_null("threads_busy_s");
   s.barrier_wait_s = from.seconds_table_or_null("barrier_wait_s");
   s.counters = read_or_null<counters_row>(from, "counters", read_counters);
-  s.work = read_or_null<work_row>(from, "work", read_work);
+  s.work = read_or_null<work_row>(from, "work", [former](const fields& work) { return read_work(work, former); });
   s.peak_rss_bytes = from.count_or_null("peak_rss_bytes");
-  s.workspace_bytes.reset();  // rows of before it was measured have none
-  if (from.has("workspace_bytes")) s.workspace_bytes = from.count_or_null("workspace_bytes");
+  s.workspace_bytes = s.lost = s.threads_worked = std::nullopt;
+  if (!former || from.has("workspace_bytes")) s.workspace_bytes = from.count_or_null("workspace_bytes");
+  if (!former) {
+    s.lost = from.count_or_null("lost");
+    s.threads_worked = from.count_or_null("threads_worked");
+  }
   s.verify = read_verify(from.nested("verify"));
   from.finish();
 }
@@ -221,18 +233,17 @@ std::string format_row(const row& value) {
 
 row parse_row(const json& j) {
   fields from(j);
-  from.literal("schema", row_schema);
-  const std::string kind = from.text("kind");
+  from.word("schema", {row_schema, former_row_schema});
+  const std::string kind =
+      from.word("kind", {"sample", "environment", "backend", "peak", "pace", "round", "end", "void"});
   if (kind == "sample") return j.get<sample>();
   if (kind == "environment") return j.get<environment_row>();
-  if (kind == "void") return j.get<void_row>();
+  if (kind == "backend") return j.get<backend_row>();
   if (kind == "peak") return j.get<peak_row>();
   if (kind == "pace") return j.get<pace_row>();
   if (kind == "round") return j.get<round_row>();
   if (kind == "end") return j.get<end_row>();
-  throw error(
-      "key \"kind\" should be \"sample\", \"environment\", \"peak\", \"pace\", \"round\", \"end\" or \"void\", is \"" +
-      kind + "\"");
+  return j.get<void_row>();
 }
 
 }  // namespace pairsum::harness

@@ -13,7 +13,9 @@
 /// section 3.
 namespace pairsum::harness {
 
-inline constexpr const char* row_schema = "pairsum.row/2";
+inline constexpr const char* row_schema = "pairsum.row/3";
+/// Rows of this schema are still read; what they do not say stays empty.
+inline constexpr const char* former_row_schema = "pairsum.row/2";
 
 /// What was measured. Two rows belong to the same point exactly if these fields are equal.
 struct point {
@@ -76,6 +78,7 @@ struct work_row {
                 pairs_fluid_fluid = 0, pairs_fluid_boundary = 0;
   std::optional<std::uint64_t> pairs_tested_unfolded;  ///< distance tests without folded cells
   std::optional<vector_use> vector_units{};            ///< of sums on vector units or over blocks
+  std::optional<double> flops{}, bytes{};              ///< that one summation needs at least (docs/model.md)
   bool operator==(const work_row&) const = default;
 };
 
@@ -110,6 +113,8 @@ struct sample {
   std::optional<work_row> work;
   std::optional<std::uint64_t> peak_rss_bytes;
   std::optional<std::uint64_t> workspace_bytes{};  ///< that the backend holds after its first evaluation
+  std::optional<std::uint64_t> lost{};             ///< particles found outside Omega in the step, summed no more
+  std::optional<std::uint64_t> threads_worked{};   ///< of the team, as threads_worked() counts them
   verify_row verify;
   std::optional<std::string> error;
   bool operator==(const sample&) const = default;
@@ -128,6 +133,21 @@ struct environment_row {
   std::string binding;   ///< which processing unit each thread is pinned to, or "none"
   std::string counters;  ///< what the hardware counts, or "none: why"
   bool operator==(const environment_row&) const = default;
+};
+
+/// A backend that tests the harness: a copy of another, whose time over that one's is known beforehand.
+struct self_test_row {
+  std::string what, base_backend;
+  std::optional<double> expected;  ///< none where verification must refuse it
+  bool operator==(const self_test_row&) const = default;
+};
+
+/// What a backend says of itself, before the samples that name it; words and meaning are those of `pairsum list`.
+struct backend_row {
+  std::string study, utc, environment, name, description, aliases, runtime, conflicts;
+  bool symmetric = false, deterministic = false, vector = false, blocks = false;
+  std::optional<self_test_row> self_test;
+  bool operator==(const backend_row&) const = default;
 };
 
 /// What the machine does at best with so many threads, measured by the program: the model's bounds.
@@ -177,7 +197,7 @@ struct void_row {
   bool operator==(const void_row&) const = default;
 };
 
-using row = std::variant<sample, environment_row, void_row, peak_row, pace_row, round_row, end_row>;
+using row = std::variant<sample, environment_row, backend_row, void_row, peak_row, pace_row, round_row, end_row>;
 
 /// To JSON with exactly the keys of the schema; numbers that are not finite become null.
 void to_json(nlohmann::json& json, const point& value);
@@ -187,6 +207,7 @@ void to_json(nlohmann::json& json, const work_row& value);
 void to_json(nlohmann::json& json, const verify_row& value);
 void to_json(nlohmann::json& json, const sample& value);
 void to_json(nlohmann::json& json, const environment_row& value);
+void to_json(nlohmann::json& json, const backend_row& value);
 void to_json(nlohmann::json& json, const void_row& value);
 void to_json(nlohmann::json& json, const peak_row& value);
 void to_json(nlohmann::json& json, const pace_row& value);
@@ -201,6 +222,7 @@ void from_json(const nlohmann::json& json, work_row& value);
 void from_json(const nlohmann::json& json, verify_row& value);
 void from_json(const nlohmann::json& json, sample& value);
 void from_json(const nlohmann::json& json, environment_row& value);
+void from_json(const nlohmann::json& json, backend_row& value);
 void from_json(const nlohmann::json& json, void_row& value);
 void from_json(const nlohmann::json& json, peak_row& value);
 void from_json(const nlohmann::json& json, pace_row& value);

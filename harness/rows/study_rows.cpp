@@ -1,4 +1,4 @@
-// The rows of a study that are no samples: environment, peak, pace, round, end, void.
+// The rows of a study that are no samples: environment, backend, peak, pace, round, end, void.
 #include "harness/rows/json_parts.hpp"
 
 namespace pairsum::harness {
@@ -42,6 +42,46 @@ void from_json(const json& j, environment_row& e) {
   e.dirty = from.boolean("dirty");
   e.binding = from.text("binding");
   e.counters = from.text("counters");
+  from.finish();
+}
+
+void to_json(json& j, const backend_row& b) {
+  j = head("backend", b);
+  j["name"] = b.name;
+  j["description"] = b.description;
+  j["aliases"] = b.aliases;
+  j["runtime"] = b.runtime;
+  j["conflicts"] = b.conflicts;
+  j["symmetric"] = b.symmetric;
+  j["deterministic"] = b.deterministic;
+  j["vector"] = b.vector;
+  j["blocks"] = b.blocks;
+  j["self_test"] = nullptr;
+  if (b.self_test)
+    j["self_test"] = {{"what", b.self_test->what},
+                      {"base_backend", b.self_test->base_backend},
+                      {"expected", finite(b.self_test->expected)}};
+}
+
+void from_json(const json& j, backend_row& b) {
+  fields from(j);
+  from.literal("schema", row_schema);  // the former one had no such rows
+  read_head(from, "backend", b);
+  b.name = from.text("name");
+  b.description = from.text("description");
+  b.aliases = from.text("aliases");
+  b.runtime = from.text("runtime");
+  b.conflicts = from.text("conflicts");
+  b.symmetric = from.boolean("symmetric");
+  b.deterministic = from.boolean("deterministic");
+  b.vector = from.boolean("vector");
+  b.blocks = from.boolean("blocks");
+  b.self_test.reset();
+  if (!from.is_null("self_test")) {
+    fields test = from.nested("self_test");
+    b.self_test = {test.text("what"), test.text("base_backend"), test.amount_or_null("expected")};
+    test.finish();
+  }
   from.finish();
 }
 

@@ -6,24 +6,28 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
+#include <type_traits>
+#include <utility>
 
 #include <pairsum/core/error.hpp>
-#include "harness/rows/reader.hpp"
 
 namespace pairsum::harness {
 namespace {
 
-bool has_rows(const std::filesystem::path& path) {
-  std::error_code code;
-  if (!std::filesystem::exists(path, code)) return false;
-  return !std::filesystem::is_regular_file(path, code) || std::filesystem::file_size(path, code) > 0;
-}
-
 [[noreturn]] void cannot_write(const std::filesystem::path& path, const std::string& why) {
   throw error("cannot write rows to " + path.string() + ": " + why);
+}
+
+void must_name_a_file(const std::filesystem::path& path) {
+  if (path.filename().empty()) cannot_write(path, "the path should name a file");
+}
+
+known_names names_in(const std::filesystem::path& path) {
+  must_name_a_file(path);
+  rows_reader reader(path);
+  if (reader.has_rows()) reader.read_on();
+  return reader.known();
 }
 
 /// Makes the directory entry of a new file durable; a file system that cannot is no error.
@@ -36,10 +40,11 @@ void sync_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
-row_writer::row_writer(std::filesystem::path path) : path_(std::move(path)) {
-  if (path_.filename().empty()) cannot_write(path_, "the path should name a file");
-  if (has_rows(path_))
-    for (const environment_row& e : read_rows(path_).environments) environments_.insert(e.environment);
+row_writer::row_writer(const std::filesystem::path& path) : row_writer(path, names_in(path)) {}
+
+row_writer::row_writer(std::filesystem::path path, known_names known)
+    : path_(std::move(path)), known_(std::move(known)) {
+  must_name_a_file(path_);
   std::filesystem::path folder = path_.parent_path();
   if (folder.empty()) folder = ".";
   std::error_code code;
@@ -54,6 +59,15 @@ row_writer::~row_writer() {
   if (file_ >= 0) ::close(file_);
 }
 
+template <class Row>
+void row_writer::must_be_known(const Row& r) const {
+  if constexpr (requires { r.environment; } && !std::is_same_v<Row, environment_row>)
+    if (!knows(r.environment)) cannot_write(path_, "no environment row before the row is \"" + r.environment + "\"");
+  if constexpr (std::is_same_v<Row, sample>)
+    if (!knows(r.environment, r.point.backend))
+      cannot_write(path_, "no backend row before the row is \"" + r.point.backend + "\"");
+}
+
 void row_writer::write(const row& value) {
   const std::string text = format_row(value);
   try {
@@ -61,16 +75,7 @@ void row_writer::write(const row& value) {
   } catch (const error& e) {
     cannot_write(path_, std::string("the row is wrong: ") + e.what());
   }
-  const std::string* const named = std::visit(
-      [](const auto& v) -> const std::string* {
-        if constexpr (requires { v.environment; })
-          return &v.environment;
-        else
-          return nullptr;
-      },
-      value);
-  if (named != nullptr && !std::holds_alternative<environment_row>(value) && environments_.count(*named) == 0)
-    cannot_write(path_, "no environment row before the row is \"" + *named + "\"");
+  std::visit([this](const auto& v) { must_be_known(v); }, value);
 
   const std::string line = text + "\n";
   struct stat before {};
@@ -86,20 +91,8 @@ void row_writer::write(const row& value) {
                  undone ? "no space for the row, which was taken back" : "no space for the row, its last line is cut");
   }
   if (::fsync(file_) != 0) cannot_write(path_, std::strerror(errno));
-  if (const auto* e = std::get_if<environment_row>(&value)) environments_.insert(e->environment);
-}
-
-std::size_t drop_cut_line(const std::filesystem::path& path) {
-  if (!has_rows(path) || !read_rows(path, cut_line::drop).last_line_cut) return 0;
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  // The cut line may end in a newline of its own, as part of a cut text.
-  const std::size_t before = text.size() < 2 ? text.npos : text.rfind('\n', text.size() - 2);
-  const std::size_t keep = before == text.npos ? 0 : before + 1;
-  std::error_code code;
-  std::filesystem::resize_file(path, keep, code);
-  if (code) cannot_write(path, code.message());
-  return text.size() - keep;
+  if (const auto* e = std::get_if<environment_row>(&value)) known_.environments.insert(e->environment);
+  if (const auto* b = std::get_if<backend_row>(&value)) known_.backends.emplace(b->environment, b->name);
 }
 
 }  // namespace pairsum::harness

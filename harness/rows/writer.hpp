@@ -1,9 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <set>
 #include <string>
 
+#include "harness/rows/reader.hpp"
 #include "harness/rows/row.hpp"
 
 namespace pairsum::harness {
@@ -15,28 +15,33 @@ class row_writer {
   /// Opens `path` for appending and creates the folders above it. Throws pairsum::error with one
   /// line if that is not possible, or if the file exists and is neither empty nor a valid rows
   /// file.
-  explicit row_writer(std::filesystem::path path);
+  explicit row_writer(const std::filesystem::path& path);
+  /// The same for a file that was read already, with what its rows may name: it is not read again.
+  row_writer(std::filesystem::path path, known_names known);
   ~row_writer();
   row_writer(const row_writer&) = delete;
   row_writer& operator=(const row_writer&) = delete;
 
   /// Writes one row durably. Numbers that are not finite are written as null; a row that the reader
-  /// would refuse (also a sample whose environment row is not in the file) throws pairsum::error
-  /// unwritten.
+  /// would refuse (also a sample whose environment or backend row is not in the file) throws
+  /// pairsum::error unwritten.
   void write(const row& value);
 
   const std::filesystem::path& path() const { return path_; }
   /// Is there an environment row of this id in the file?
-  bool knows(const std::string& environment) const { return environments_.count(environment) != 0; }
+  bool knows(const std::string& environment) const { return known_.environments.contains(environment); }
+  /// Is there a backend row of that environment and name in the file?
+  bool knows(const std::string& environment, const std::string& backend) const {
+    return known_.backends.contains({environment, backend});
+  }
 
  private:
+  template <class Row>
+  void must_be_known(const Row& r) const;
+
   std::filesystem::path path_;
   int file_ = -1;
-  std::set<std::string> environments_;
+  known_names known_;
 };
-
-/// Takes a last line away that was cut while it was written, so that rows can be appended. Returns the number of bytes
-/// taken away; 0 if there is no file or nothing to mend. Throws like read_rows for any other fault.
-std::size_t drop_cut_line(const std::filesystem::path& path);
 
 }  // namespace pairsum::harness

@@ -9,7 +9,7 @@
 namespace pairsum::harness {
 namespace {
 
-constexpr const char* order_schema = "pairsum.order/1";
+constexpr const char* order_schema = "pairsum.order/2";
 constexpr const char* errands[] = {"peaks", "verify", "measure"};
 
 }  // namespace
@@ -21,6 +21,8 @@ nlohmann::json order_json(const order& o) {
           {"part", o.part},
           {"round", o.round},
           {"out", o.out},
+          {"environments", o.known.environments},
+          {"backends", o.known.backends},
           {"binding", o.binding},
           {"store", o.store},
           {"standing",
@@ -46,6 +48,8 @@ order parse_order(const nlohmann::json& j) {
   if (o.part >= o.plan.parts.size()) throw other_version();
   o.round = j.at("round");
   o.out = j.at("out");
+  o.known.environments = j.at("environments").get<std::set<std::string>>();
+  o.known.backends = j.at("backends").get<std::set<std::pair<std::string, std::string>>>();
   o.binding = j.at("binding");
   o.store = j.at("store");
   const auto& where = j.at("standing");

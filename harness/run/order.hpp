@@ -4,6 +4,7 @@
 #include <string>
 
 #include "harness/plan/study.hpp"
+#include "harness/rows/reader.hpp"
 
 namespace pairsum::harness {
 
@@ -26,7 +27,8 @@ struct order {
   study_plan plan;
   std::size_t part = 0;  ///< index into the plan's parts
   int round = 1;
-  std::string out;  ///< rows file
+  std::string out;    ///< rows file
+  known_names known;  ///< what its rows may name, so that it need not be read again
   std::string binding = "cores_first";
   int store = -1;  ///< descriptor of the shared store; -1: none
   standing where;

@@ -26,7 +26,7 @@ std::filesystem::path rows_path(const std::filesystem::path& results, const stud
         const rows_so_far rows(entry.path(), plan);
         const auto& there = rows.rows().environments;
         const bool ours = std::ranges::any_of(there, [&](const environment_row& e) { return same_build(e, here); });
-        if (rows.unended() && ours) newest = entry.path();
+        if (rows.unended() && ours && !rows.rows().former_schema) newest = entry.path();
       } catch (const error&) {  // no rows file, one of another version, or being written: nothing to resume
       }
     }

@@ -4,40 +4,24 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <optional>
-#include <utility>
+#include <set>
 
 #include <pairsum/core/error.hpp>
 #include "harness/environment/environment.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/measure/cpu_time.hpp"
 #include "harness/measure/stopwatch.hpp"
-#include "harness/rows/same_build.hpp"
-#include "harness/rows/writer.hpp"
 #include "harness/run/estimate.hpp"
-#include "harness/run/file_lock.hpp"
 #include "harness/run/interrupt.hpp"
 #include "harness/run/own_environment.hpp"
 #include "harness/run/results_table.hpp"
-#include "harness/run/rows_so_far.hpp"
+#include "harness/run/study_file.hpp"
 #include "harness/run/worker.hpp"
-#include "harness/run/writable_file.hpp"
 #include "harness/verify/shared_store.hpp"
 
 namespace pairsum::harness {
 namespace {
-
-/// What differs, for the message.
-std::string other_build(const environment_row& there, const environment_row& here) {
-  const auto say = [](const environment_row& e) {
-    std::string text = fmt::format("{}, git {}{}, {}, {}, binding {}", e.host, e.git,
-                                   e.dirty ? " with uncommitted changes" : "", e.compiler, e.flags, e.binding);
-    for (const auto& [plugin, file] : plugins_of(e)) text += fmt::format(", {}: {}", plugin, file);
-    return text;
-  };
-  return fmt::format("{}; this is {}", say(there), say(here));
-}
 
 class conductor {
  public:
@@ -47,22 +31,15 @@ class conductor {
         all_(all),
         hash_(plan_hash(plan)),
         environment_(own_environment(plan, options.binding)),
-        lock_(options.out),
+        file_(options.out, plan, environment_),
         estimate_(plan, all) {
-    const std::size_t cut = drop_cut_line(options.out);
+    const std::size_t cut = file_.mend();
     if (cut > 0) say(fmt::format("{}: a last line that was cut ({} bytes) is taken away", options.out.string(), cut));
-    so_far_.emplace(options.out, plan_);
-    for (const environment_row& e : so_far_->rows().environments)
-      if (plan_.builds == 1 ? !same_build(e, environment_) : !same_machine(e, environment_))
-        throw error(fmt::format("{} holds rows of another machine or build: {}. Name another file",
-                                options.out.string(), other_build(e, environment_)));
-    written_ = std::make_unique<writable_file>(options.out);
-    lock_.take();
   }
 
   int run() {
-    void_unfinished();
-    if (so_far_->open()) say(resuming());
+    file_.void_rounds("the round was cut: the study was killed or interrupted");
+    if (so_far().open()) say(resuming());
     if (!measure_peaks()) return ended();
     double shares = 0;
     for (const part_plan& part : plan_.parts) shares += part.share;
@@ -81,24 +58,12 @@ class conductor {
     std::fflush(stdout);
   }
 
-  /// The file, opened when there is the first row to write, so that bad input leaves none behind.
-  row_writer& file() {
-    if (!writer_) {
-      writer_.emplace(options_.out);
-      if (!writer_->knows(environment_.environment)) writer_->write(environment_);
-    }
-    return *writer_;
-  }
-
-  void void_unfinished() {
-    for (const auto& [study, round] : so_far_->rows().unfinished_rounds())
-      file().write(void_row{study, utc_now(), round, "the round was cut: the study was killed or interrupted"});
-  }
+  const rows_so_far& so_far() const { return file_.so_far(); }
 
   std::string resuming() const {
     std::string parts;
     for (const part_plan& p : plan_.parts)
-      parts += fmt::format("{}{} of {} {}", parts.empty() ? "" : ", ", so_far_->rounds(p.request.part).size(),
+      parts += fmt::format("{}{} of {} {}", parts.empty() ? "" : ", ", so_far().rounds(p.request.part).size(),
                            p.least_rounds == p.most_rounds ? fmt::format("{}", p.most_rounds)
                                                            : fmt::format("{} to {}", p.least_rounds, p.most_rounds),
                            p.request.part);
@@ -117,7 +82,7 @@ class conductor {
         return true;
       }
       store_.truncate(store_end);
-      drop_cut_line(options_.out);
+      file_.mend();
       if (code_ == 0) give_up_after(++crashes, text);
     }
     return false;
@@ -147,12 +112,14 @@ class conductor {
     code_ = 2;
   }
 
-  order order_for(errand what, std::size_t part, double estimated, const std::string& text) const {
+  order order_for(errand what, std::size_t part, double estimated, const std::string& text) {
+    file_.read_on();
     order o;
     o.what = what;
     o.plan = plan_;
     o.part = part;
     o.out = options_.out.string();
+    o.known = so_far().known();
     o.binding = options_.binding;
     o.store = store_.descriptor();
     o.where = {since_start_.seconds(), done_s_, estimated, std::max(estimate_.all_s(), done_s_ + estimated), text};
@@ -162,10 +129,10 @@ class conductor {
   bool measure_peaks() {
     if (!plan_.peaks || interrupted()) return true;
     auto wanted = peaks_of(plan_, all_);
-    for (const peak_row& p : so_far_->rows().peaks)
+    for (const peak_row& p : so_far().rows().peaks)
       if (p.environment == environment_.environment && p.study == plan_.study) wanted.erase({p.threads, p.precision});
     if (wanted.empty()) return true;
-    file();
+    file_.open();  // the environment's row comes first
     return carry_out(errand::peaks, 0, estimate_.peaks_s(), "the machine's peaks");
   }
 
@@ -174,7 +141,7 @@ class conductor {
     const std::string& name = part.request.part;
     const stopwatch since;
     const double budget = left() * part.share / shares;
-    if (done(part)) return;
+    if (so_far().done(part)) return;
     const double verifying = estimate_.verify_s(k);
     if (plan_.budget_s > 0 && k > 0 && verifying + estimate_.round_s(k) > left()) {
       say(fmt::format("{} is left out: {:.0f} s are left of the budget of {:.0f} s, about {:.0f} s are wanted", name,
@@ -186,7 +153,7 @@ class conductor {
     if (!carry_out(errand::verify, k, verifying, "verifying " + name)) return;
     estimate_.verified(k, clock.lap());
     int crashes = 0;
-    while (!done(part) && code_ == 0) {
+    while (!so_far().done(part) && code_ == 0) {
       if (!affordable(k, since.seconds(), budget)) {
         cut_by_budget_ = true;
         return;
@@ -205,7 +172,7 @@ class conductor {
   /// first is made in any case; up to its least number as long as each later part can still have one; more if these can
   /// have their least number, and within its share.
   bool affordable(std::size_t k, double elapsed, double budget) const {
-    const std::size_t rounds = so_far_->rounds(plan_.parts[k].request.part).size();
+    const std::size_t rounds = so_far().rounds(plan_.parts[k].request.part).size();
     if (plan_.budget_s == 0 || rounds == 0) return true;
     const bool more = static_cast<int>(rounds) >= plan_.parts[k].least_rounds;
     double wanted = estimate_.round_s(k);
@@ -214,34 +181,16 @@ class conductor {
     return wanted <= left() && (!more || elapsed + estimate_.round_s(k) <= budget);
   }
 
-  bool done(const part_plan& part) const {
-    const int rounds = static_cast<int>(so_far_->rounds(part.request.part).size());
-    if (rounds >= part.most_rounds) return true;
-    if (rounds < part.least_rounds || part.half_width == 0) return false;
-    const auto width = so_far_->half_width(part.request.part);
-    return width && *width <= part.half_width;
-  }
-
-  std::string standing_of(std::size_t k) const {
-    const part_plan& part = plan_.parts[k];
-    const std::string& name = part.request.part;
-    std::string text = fmt::format("{} round {}/{}", name, so_far_->rounds(name).size() + 1, part.most_rounds);
-    if (const auto width = so_far_->half_width(name))
-      text += fmt::format(", +-{:.1f} %{}", 100 * *width,
-                          part.half_width > 0 ? fmt::format(" (goal {:.1f})", 100 * part.half_width) : "");
-    return text;
-  }
-
   /// One round in all builds. False if it did not come to its end; then its rows are voided.
   bool measure_round(std::size_t k) {
     const part_plan& part = plan_.parts[k];
-    const int round = so_far_->next_round();
-    file();  // the environment's row comes first, whichever build begins
+    const int round = so_far().next_round();
+    file_.open();  // the environment's row comes first, whichever build begins
     const auto machine_before = machine_time_now();
     const double own_before = own_time();
     double workers_s = 0;
     stopwatch clock;
-    order o = order_for(errand::measure, k, estimate_.round_s(k), standing_of(k));
+    order o = order_for(errand::measure, k, estimate_.round_s(k), so_far().standing(part));
     o.round = round;
     const std::size_t store_end = store_.end();
     std::uint64_t rows = 0;
@@ -253,62 +202,54 @@ class conductor {
         void_round(round, code_ == 130 ? "interrupted" : end_of(end));
         return false;
       }
-      const std::uint64_t before = std::exchange(rows, rows_of(round));
-      if (rows == before) {
+      file_.read_on();
+      o.known = so_far().known();
+      if (rows == so_far().samples_of(round)) {
         say(fmt::format("program {} of {} measured nothing: is it pairsum, of this version?", build + 1,
                         options_.builds.size()));
         code_ = 2;
         void_round(round, "a program measured nothing");
         return false;
       }
+      rows = so_far().samples_of(round);
     }
-    round_row r;
-    r.study = plan_.study;
-    r.utc = utc_now();
-    r.environment = environment_.environment;
-    r.round = round;
-    r.part = part.request.part;
-    r.replicate = so_far_->next_replicate(r.part);
-    r.plan = hash_;
-    r.seed = part.request.seed;
-    r.rows = rows;
-    r.elapsed_s = clock.seconds();
     // A process in this one has its time in this one's: nothing is counted twice or left out.
-    r.others_share = share_of_others(machine_before, machine_time_now(), std::max(workers_s, own_time() - own_before));
-    file().write(r);
-    so_far_.emplace(options_.out, plan_);
+    const double own_s = std::max(workers_s, own_time() - own_before);
+    file_.write(round_row{.study = plan_.study,
+                          .utc = utc_now(),
+                          .environment = environment_.environment,
+                          .round = round,
+                          .part = part.request.part,
+                          .replicate = so_far().next_replicate(part.request.part),
+                          .plan = hash_,
+                          .seed = part.request.seed,
+                          .rows = rows,
+                          .elapsed_s = clock.seconds(),
+                          .others_share = share_of_others(machine_before, machine_time_now(), own_s)});
+    file_.read_on();
     done_s_ += estimate_.round_s(k);
     return true;
   }
 
-  std::uint64_t rows_of(int round) const {
-    const rows_file rows = read_rows(options_.out);
-    return static_cast<std::uint64_t>(std::ranges::count_if(
-        rows.samples, [&](const sample& s) { return s.study == plan_.study && s.round == round; }));
-  }
-
   void void_round(int round, const std::string& why) {
-    drop_cut_line(options_.out);
-    so_far_.emplace(options_.out, plan_);
-    writer_.reset();
-    for (const auto& open : so_far_->rows().unfinished_rounds())
-      if (open.second == round) file().write(void_row{plan_.study, utc_now(), round, why});
+    file_.mend();
+    file_.void_rounds(why, round);
+    file_.read_on();
     if (code_ == 0) say(fmt::format("round {} is voided and measured again: {}", round, why));
-    so_far_.emplace(options_.out, plan_);
   }
 
   int ended() {
-    const std::vector<sample> samples = so_far_->samples();
+    const std::vector<sample> samples = so_far().samples();
     if (!samples.empty()) fmt::print("{}", results_table(samples));
     if (code_ == 130)
       say(fmt::format("interrupted; {} finished rounds are kept: started again with --out {}, the study goes on there",
-                      so_far_->finished(), options_.out.string()));
+                      so_far().finished(), options_.out.string()));
     if (code_ != 0) return code_;
     const std::string reason = left_out_        ? "the budget ended before every part was measured"
                                : cut_by_budget_ ? "the budget ended before every part had its rounds"
                                                 : "every part has its rounds";
     if (left_out_ || cut_by_budget_) say(fmt::format("{} ({:.0f} s)", reason, plan_.budget_s));
-    file().write(end_row{plan_.study, utc_now(), hash_, reason});
+    file_.write(end_row{plan_.study, utc_now(), hash_, reason});
     const auto failed = [&](const sample& s) { return s.error && !must_fail(plan_, s.point.backend); };
     return std::ranges::any_of(samples, failed) ? 1 : 0;
   }
@@ -318,12 +259,9 @@ class conductor {
   const registry& all_;
   std::string hash_;
   environment_row environment_;
-  std::unique_ptr<writable_file> written_;
-  file_lock lock_;
+  study_file file_;
   shared_store store_;
   estimate estimate_;
-  std::optional<row_writer> writer_;
-  std::optional<rows_so_far> so_far_;
   stopwatch since_start_;
   double done_s_ = 0;
   int code_ = 0;
@@ -335,11 +273,11 @@ class conductor {
 int conduct(const study_plan& plan, const study_options& options, const registry& all) {
   check_plan(plan, all);
   note_interrupts();
-  std::vector<int> crowded;
+  std::set<int> crowded;
   const int cores = usable_cores();
   for (const part_plan& part : plan.parts)
     for (const int t : part.request.threads)
-      if (t > cores && std::ranges::find(crowded, t) == crowded.end()) crowded.push_back(t);
+      if (t > cores) crowded.insert(t);
   for (const int t : crowded) fmt::print("note: {} threads on {} cores\n", t, cores);
   return conductor(plan, options, all).run();
 }

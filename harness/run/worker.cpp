@@ -18,6 +18,7 @@
 #include "harness/rows/point_words.hpp"
 #include "harness/rows/reader.hpp"
 #include "harness/rows/writer.hpp"
+#include "harness/run/describe_backend.hpp"
 #include "harness/run/interrupt.hpp"
 #include "harness/run/progress.hpp"
 #include "harness/run/results_table.hpp"
@@ -26,6 +27,12 @@
 
 namespace pairsum::harness {
 namespace {
+
+std::uint64_t largest_cache(const environment_row& e) {
+  std::uint64_t largest = 0;
+  for (const auto& [level, bytes] : e.caches) largest = std::max(largest, bytes);
+  return largest;
+}
 
 std::string label(const point& p) { return fmt::format("{} dx={} {} {}", place_words(p), p.dx, p.state, p.isa); }
 
@@ -69,7 +76,7 @@ class errand_run {
         binding_(o.binding),
         environment_(describe_environment(o.plan.study, binding_.description(), hardware_.description())),
         store_(o.store >= 0 ? std::make_unique<shared_store>(o.store) : nullptr),
-        with_{all, binding_, hardware_, store_.get(), environment_.environment},
+        with_{all, binding_, hardware_, store_.get(), environment_.environment, largest_cache(environment_)},
         progress_(o.where.all_s, o.plan.budget_s, o.where.elapsed_s) {}
 
   int verify() {
@@ -89,9 +96,11 @@ class errand_run {
       if (r.interrupted) return 130;
       if (!r.error.empty())
         note(fmt::format("{} ({}) FAILED its verification: {}", label(p.what), words_of(p.what), r.error));
-      if (r.lost > 0)
+      std::uint64_t lost = 0;
+      for (const step_result& step : r.steps) lost += step.lost;
+      if (lost > 0)
         note(fmt::format("{} ({}): {} particles left Omega and are no longer summed", label(p.what), words_of(p.what),
-                         r.lost));
+                         lost));
       advance(unit);
     }
     for (const auto& w : part.worlds()) w->remember();
@@ -102,6 +111,7 @@ class errand_run {
     measured_part part(order_, with_);
     for (const auto& w : part.worlds()) w->make_reference();
     open();
+    describe_backends(part);
     warm_up(part);
     const int repetitions = part.request().repetitions;
     const auto machine = paces_of(part);
@@ -134,13 +144,12 @@ class errand_run {
     for (const peak_row& p : read_rows(order_.out).peaks)  // by a process that was cut
       if (p.study == order_.plan.study && p.environment == environment_.environment)
         wanted.erase({p.threads, p.precision});
-    std::uint64_t cache = 0;
-    for (const auto& [level, bytes] : environment_.caches) cache = std::max(cache, bytes);
     for (const auto& [threads, precision] : wanted) {
       if (interrupted()) return 130;
       show(fmt::format("measuring the peaks of {} threads, {}", threads, precision));
       const worker_team workers(runtime::omp, threads, &binding_);
-      const peak_rates rates = measure_peaks(precision, workers.get(), {.last_level_cache_bytes = cache});
+      const peak_rates rates =
+          measure_peaks(precision, workers.get(), {.last_level_cache_bytes = with_.last_level_cache_bytes});
       writer_->write(peak_row{order_.plan.study, utc_now(), environment_.environment, threads, precision,
                               rates.bandwidth_bytes_per_s, rates.flops_per_s});
       advance(1.0 / static_cast<double>(wanted.size()));
@@ -185,8 +194,20 @@ class errand_run {
 
   /// The rows file, once the input has proved right; with the environment row if it is not there.
   void open() {
-    writer_ = std::make_unique<row_writer>(order_.out);
+    writer_ = std::make_unique<row_writer>(order_.out, order_.known);
     if (!writer_->knows(environment_.environment)) writer_->write(environment_);
+  }
+
+  /// A row for every backend of the part that has none there.
+  void describe_backends(const measured_part& part) {
+    for (const auto& p : part.points()) {
+      if (writer_->knows(environment_.environment, p.what.backend)) continue;
+      backend_row b = describe_backend(with_.all.find_backend(p.what.backend).traits);
+      b.study = order_.plan.study;
+      b.utc = utc_now();
+      b.environment = environment_.environment;
+      writer_->write(b);
+    }
   }
 
   sample blank(const point& p, int slot, int repetition) const {
@@ -222,6 +243,8 @@ class errand_run {
       s.work = k == 0 ? r.work : std::nullopt;
       s.peak_rss_bytes = r.peak_rss_bytes;
       s.workspace_bytes = r.workspace_bytes;
+      s.lost = step.lost;
+      s.threads_worked = step.threads_worked;
       s.verify = {step.checked.max_rel_err, step.checked.bound, fmt::format("{:016x}", step.checked.fingerprint)};
       writer_->write(s);
       sum += step.times.sum_s.value_or(0);

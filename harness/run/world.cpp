@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include <pairsum/core/granularity.hpp>
 #include <pairsum/integrators/integrator.hpp>
@@ -13,7 +14,9 @@
 #include "harness/measure/pass_times.hpp"
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
+#include "harness/model/cost.hpp"
 #include "harness/rows/add_thread_times.hpp"
+#include "harness/rows/threads_worked.hpp"
 #include "harness/run/interrupt.hpp"
 #include "harness/run/point_setup.hpp"
 
@@ -87,6 +90,11 @@ work_row world::work_of(const point& p, summation& s) {
       at->second.vector_units = {s.block(), lanes, vectors,
                                  room > 0 ? static_cast<double>(w.fluid_evaluated()) / room : 0};
     }
+    if (!costs_) costs_ = with_.all.make_reference(setup_of_point(any_, particles_->initial, with_.all))->costs();
+    const cost_bound bound =
+        bound_of({*costs_, s.traits(), w, p.n_fluid, p.n_boundary, with_.last_level_cache_bytes, {}});
+    at->second.flops = bound.flops;
+    at->second.bytes = bound.bytes;
     if (unfolded_) at->second.pairs_tested_unfolded = s.traits().symmetric ? unfolded_->symmetric : unfolded_->gather;
   }
   return at->second;
@@ -134,6 +142,7 @@ world::result world::measure(const point& p, int steps) {
   reset_peak_rss();
   summation->load(particles_->initial.particles, particles_->orders.at(p.order), t);
   int evaluations = 0;
+  std::size_t lost = 0;
   for (int step = 1; step <= (steps > 0 ? steps : request_.steps) && out.error.empty(); ++step) {
     if (interrupted()) {
       out.interrupted = true;
@@ -180,10 +189,13 @@ world::result world::measure(const point& p, int steps) {
     times.total_s = whole.lap() - checking;
     const double evaluated = *times.index_s + *times.prepare_s + *times.zero_s + *times.sum_s + *times.reduce_s;
     times.integrate_s = std::max(0.0, *times.total_s - evaluated);
+    const std::size_t lost_before = std::exchange(lost, summation->lost());
+    now.lost = lost - lost_before;
+    if (kind == runtime::serial) now.threads_worked = 1;
+    if (now.threads_busy_s) now.threads_worked = threads_worked(*now.threads_busy_s);
     if (!now.checked.ok) out.error = fmt::format("step {}: {}", step, now.checked.error);
     out.steps.push_back(std::move(now));
   }
-  out.lost = summation->lost();
   return out;
 }
 

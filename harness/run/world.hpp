@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <pairsum/cases/case.hpp>
+#include <pairsum/sum/costs.hpp>
 #include "harness/measure/binding.hpp"
 #include "harness/measure/counters.hpp"
 #include "harness/plan/plan.hpp"
@@ -17,6 +18,8 @@ struct step_result {
   phases times;
   std::optional<thread_times> threads_busy_s, barrier_wait_s;
   std::optional<counters_row> counted;
+  std::uint64_t lost = 0;                       ///< particles found outside Omega
+  std::optional<std::uint64_t> threads_worked;  ///< see threads_worked()
   verifier::outcome checked;
 };
 
@@ -36,6 +39,7 @@ struct measuring {
   counters& hardware;
   shared_store* store = nullptr;  ///< of references and verdicts, from and for other processes
   std::string build;              ///< tells the store's entries of different programs apart
+  std::uint64_t last_level_cache_bytes = 0;
 };
 
 /// The particles of one world and their reference, and the measurement of any backend on them.
@@ -58,7 +62,6 @@ class world {
     std::optional<work_row> work;  ///< of the initial state
     std::optional<std::uint64_t> peak_rss_bytes;
     std::optional<std::uint64_t> workspace_bytes;  ///< by which the first prepare, zero, sum and reduce grew the heap
-    std::size_t lost = 0;                          ///< particles that left Omega during the steps
     bool interrupted = false;                      ///< the steps after an interrupt were not made
     std::string error;                             ///< set if a step was wrong; steps after it were not made
   };
@@ -83,6 +86,7 @@ class world {
   std::unique_ptr<verifier> verifier_;
   std::map<std::string, work_row> work_;  ///< by backend, grid, M and block
   std::optional<unfolded_tests> unfolded_;
+  std::optional<formula_costs> costs_;
 };
 
 }  // namespace pairsum::harness

@@ -13,7 +13,7 @@ class writable_file {
  public:
   explicit writable_file(std::filesystem::path path)
       : path_(std::move(path)), is_new_(!exists(path_)), folder_is_new_(is_new_ && !exists(folder())) {
-    row_writer make_it(path_);
+    row_writer make_it(path_, {});  // whoever asks has read what is there
   }
   ~writable_file() {
     std::error_code code;

@@ -36,7 +36,7 @@ def number_of_sums(listed, M, threads):
         both = listed["isas"] and f["smoothing"] and f["precision"] != "mixed" and b["conflicts"] != "atomics"
         return (f["precision"] in b["precisions"]) * (2 if both else 1)
 
-    runs = sum((1 if b["threads"] == "serial" else threads) * sum(ways(b, f) for f in listed["formulas"])
+    runs = sum((1 if b["runtime"] == "serial" else threads) * sum(ways(b, f) for f in listed["formulas"])
                for b in listed["backends"] if b["unavailable"] is None)
     return (len(listed["grids"]) + (M - 1) * len(listed["grids_with_M"])) * runs
 
@@ -62,7 +62,7 @@ def test_help_teaches(pairsum):
 
 
 def test_number_of_sums():
-    backends = [{"threads": t, "unavailable": u, "conflicts": c, "precisions": ["double", "mixed"][:1 + (c != "atomics")]}
+    backends = [{"runtime": t, "unavailable": u, "conflicts": c, "precisions": ["double", "mixed"][:1 + (c != "atomics")]}
                 for t, u, c in [("serial", None, "serial"), ("omp", None, "atomics"), ("tbb", "no TBB", "gather")]]
     built = {"backends": backends, "grids": ["a", "b"], "grids_with_M": ["a"], "isas": ["x", "y"],
              "formulas": [{"precision": p, "smoothing": s} for p, s in [("double", "s"), ("double", None), ("float", "s"), ("mixed", "s")]]}
