@@ -24,8 +24,6 @@ class fields {
 
   double number(const char* key);
   std::optional<double> number_or_null(const char* key);
-  /// Seconds: a number >= 0 or null.
-  std::optional<double> seconds_or_null(const char* key) { return amount_or_null(key); }
   /// A number >= 0 or null.
   std::optional<double> amount_or_null(const char* key);
   /// A list of lists of seconds, or null.

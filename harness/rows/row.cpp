@@ -55,7 +55,7 @@ point read_point(fields from, bool former) {
 
 phases read_phases(fields from) {
   phases p;
-  for (const phase_member& phase : phase_members) p.*phase.value = from.seconds_or_null(phase.name);
+  for (const phase_member& phase : phase_members) p.*phase.value = from.amount_or_null(phase.name);
   from.finish();
   return p;
 }

@@ -157,7 +157,7 @@ void from_json(const json& j, round_row& r) {
   r.seed = from.count("seed");
   r.rows = from.count("rows");
   r.elapsed_s = from.positive("elapsed_s");
-  r.others_share = from.seconds_or_null("others_share");
+  r.others_share = from.amount_or_null("others_share");
   from.finish();
 }
 

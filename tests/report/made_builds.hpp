@@ -39,7 +39,7 @@ inline void write_builds(const std::filesystem::path& path, const std::vector<en
   for (const environment_row& e : environments) writer.write(e);
   for (int round = 1; round <= rounds; ++round) {
     for (const made_point& p : points)
-      for (int i = 1; i <= 2; ++i) writer.write(step(p, round, i));
+      for (int i = 1; i <= 2; ++i) write_sample(writer, step(p, round, i));
     writer.write(closing_by(environments.front(), round, 2 * points.size()));
   }
 }

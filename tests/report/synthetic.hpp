@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/rows/writer.hpp"
-#include "tests/rows/example_rows.hpp"
+#include "tests/rows/write_sample.hpp"
 
 /// Rows with known times.
 namespace pairsum::harness::synthetic {
@@ -68,7 +67,7 @@ inline round_row closing(int round, std::size_t rows, double others_share = 0.01
 inline void write_round(row_writer& writer, int round, const std::vector<made_point>& points, bool close = true) {
   std::size_t rows = 0;
   for (const made_point& p : points)
-    for (int i = 1; i <= 2 && round <= p.rounds; ++i, ++rows) writer.write(step(p, round, i));
+    for (int i = 1; i <= 2 && round <= p.rounds; ++i, ++rows) write_sample(writer, step(p, round, i));
   if (close) writer.write(closing(round, rows));
 }
 

@@ -78,9 +78,9 @@ TEST_F(report, three_builds_in_a_round_are_compared_in_any_order) {
   {
     row_writer writer(rows_path());
     for (const environment_row& e : {a, b, c}) writer.write(e);
-    for (const environment_row& e : {b, a, c}) writer.write(synthetic::step(by(e, {"naive", 6, 1, 1.0}), 1, 1));
+    for (const environment_row& e : {b, a, c}) write_sample(writer, synthetic::step(by(e, {"naive", 6, 1, 1.0}), 1, 1));
     writer.write(synthetic::closing_by(a, 1, 3));
-    for (const environment_row& e : {c, b, a}) writer.write(synthetic::step(by(e, {"naive", 6, 1, 1.0}), 2, 1));
+    for (const environment_row& e : {c, b, a}) write_sample(writer, synthetic::step(by(e, {"naive", 6, 1, 1.0}), 2, 1));
     writer.write(synthetic::closing_by(a, 2, 3));
   }
   const json s = make();
@@ -93,11 +93,11 @@ TEST_F(report, studies_in_one_file_have_rounds_of_their_own) {
     row_writer writer(rows_path());
     writer.write(a);
     writer.write(b);
-    writer.write(synthetic::step(by(a, {"naive", 6, 1, 1.0}), 1, 1));
+    write_sample(writer, synthetic::step(by(a, {"naive", 6, 1, 1.0}), 1, 1));
     writer.write(synthetic::closing_by(a, 1, 1, "talk"));
     sample other = synthetic::step(by(b, {"naive", 6, 1, 1.0}), 1, 1);
     other.study = "other";
-    writer.write(other);
+    write_sample(writer, other);
     writer.write(synthetic::closing_by(b, 1, 1, "other"));
   }
   EXPECT_CONTAINS(message_of([&] { make(); }), "different machines or builds: compiler (A, B)");

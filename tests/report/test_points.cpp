@@ -70,7 +70,7 @@ TEST_F(report, scatter_is_told_apart_between_and_within_rounds) {
       sample s = synthetic::step({"naive", 6, 1, 1.0}, round, 1);
       s.repetition = repetition;
       synthetic::set_times(s, 10 * round + (repetition == 1 ? -1 : 1));  // 9, 11 and 19, 21
-      writer.write(s);
+      write_sample(writer, s);
     }
     writer.write(synthetic::closing(round, 2));
   }

@@ -56,11 +56,11 @@ TEST_F(report, points_of_different_rounds_are_compared_unpaired) {
     row_writer writer(rows_path());
     writer.write(example::environment());
     for (int round = 1; round <= 6; ++round) {
-      writer.write(synthetic::step({"naive", 6, 1, 1.0}, round, 1));
+      write_sample(writer, synthetic::step({"naive", 6, 1, 1.0}, round, 1));
       writer.write(synthetic::closing(round, 1));
     }
     for (int round = 7; round <= 12; ++round) {
-      writer.write(synthetic::step({"symmetric", 6, 1, 0.5}, round, 1));
+      write_sample(writer, synthetic::step({"symmetric", 6, 1, 0.5}, round, 1));
       writer.write(synthetic::closing(round, 1));
     }
   }
@@ -85,7 +85,7 @@ TEST_F(report, disturbed_rounds_are_a_caveat) {
     row_writer writer(rows_path());
     writer.write(example::environment());
     for (int round = 1; round <= 6; ++round) {
-      writer.write(synthetic::step({"naive", 6, 1, 1.0}, round, 1));
+      write_sample(writer, synthetic::step({"naive", 6, 1, 1.0}, round, 1));
       writer.write(synthetic::closing(round, 1, round == 3 ? 0.25 : 0.05));
     }
   }

@@ -26,6 +26,22 @@ inline environment_row environment() {
   return e;
 }
 
+/// Of the samples below, under that name; its traits are those of a copy that tests the harness.
+inline backend_row backend() {
+  backend_row b;
+  b.study = "talk";
+  b.utc = "2026-11-22T15:30:00.6Z";
+  b.environment = "0123456789abcdef";
+  b.name = "symmetric_omp";
+  b.description = "the talk's sum, 5 % slower";
+  b.aliases = "link cells";
+  b.runtime = "omp";
+  b.conflicts = "colours";
+  b.symmetric = b.deterministic = b.vector = b.blocks = true;
+  b.self_test = self_test_row{"slowed 5 %", "naive_omp", 1.05};
+  return b;
+}
+
 inline sample measured() {
   sample s;
   s.study = "talk";
@@ -59,10 +75,12 @@ inline sample measured() {
   s.phases = phases{0.1, 0.2, 0.3, 0.4, 0.0, 0.6, 1.6};
   s.threads_busy_s = thread_times{{0.25, 0.5}, {0.125, 0.0}};
   s.barrier_wait_s = thread_times{{0.125, 0.0}, {0.0, 0.5}};
-  s.work = work_row{262144, 11, 12, 13, 14, 15, 16, 17, 10};
+  s.work = work_row{262144, 11, 12, 13, 14, 15, 16, 17, 10, {}, 1.5e9, 2.5e8};
   s.counters = counters_row{1000, 2000, std::nullopt};
   s.peak_rss_bytes = 123456789;
   s.workspace_bytes = 9876543;
+  s.lost = 3;
+  s.threads_worked = 2;
   s.verify = verify_row{1.1e-15, 1e-14, "fedcba9876543210"};
   return s;
 }
@@ -76,7 +94,7 @@ inline sample failed() {
   s.counters.reset();
   s.work.reset();
   s.peak_rss_bytes.reset();
-  s.workspace_bytes.reset();
+  s.workspace_bytes = s.lost = s.threads_worked = std::nullopt;
   s.verify = verify_row{0.5, 1e-14, std::nullopt};
   s.error = "particle 7: relative error 0.5 above its bound 1e-14";
   return s;

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
       row_writer writer(argv[2]);
       writer.write(example::environment());
       writer.write(example::peak());
+      writer.write(example::backend());
       writer.write(example::measured());
       writer.write(example::failed());
       writer.write(example::pace());

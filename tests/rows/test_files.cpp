@@ -7,8 +7,8 @@
 
 #include "harness/rows/reader.hpp"
 #include "harness/rows/writer.hpp"
-#include "tests/rows/example_rows.hpp"
 #include "tests/rows/scratch.hpp"
+#include "tests/rows/write_sample.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -18,6 +18,7 @@ class rows_files : public scratch {
   std::filesystem::path write_example(const std::string& name = "rows.jsonl") const {
     row_writer writer(file(name));
     writer.write(example::environment());
+    writer.write(example::backend());
     writer.write(example::measured());
     writer.write(example::failed());
     writer.write(example::voided());
@@ -33,6 +34,7 @@ TEST_F(rows_files, what_was_written_is_read) {
   EXPECT_EQ(rows.samples[0], example::measured());
   EXPECT_EQ(rows.samples[1], example::failed());
   EXPECT_EQ(rows.environments[0], example::environment());
+  EXPECT_EQ(rows.backends, std::vector<backend_row>{example::backend()});
   EXPECT_EQ(rows.voids[0], example::voided());
 }
 
@@ -52,15 +54,15 @@ TEST_F(rows_files, only_samples_of_finished_rounds_are_valid) {
   round_row closing = example::closing(1);
   for (int round = 1; round <= 3; ++round) {
     s.round = closing.round = round;
-    writer.write(s);
+    write_sample(writer, s);
     writer.write(closing);
   }
   s.study = closing.study = "another";
   s.round = closing.round = 2;
-  writer.write(s);
+  write_sample(writer, s);
   writer.write(closing);
   s.round = 4;  // never closed
-  writer.write(s);
+  write_sample(writer, s);
   writer.write(example::voided());  // study talk, round 2
   const rows_file rows = read_rows(path);
   EXPECT_EQ(rows.samples.size(), 5u);
@@ -84,14 +86,14 @@ TEST_F(rows_files, paces_count_with_their_round) {
   for (int round = 1; round <= 3; ++round) {
     s.round = closing.round = pace.round = round;
     writer.write(pace);
-    writer.write(s);
+    write_sample(writer, s);
     writer.write(closing);
   }
   pace.round = 4;  // cut before its first sample
   writer.write(pace);
   writer.write(example::voided());  // round 2
   const rows_file rows = read_rows(path);
-  EXPECT_EQ(rows.size(), 1u + 4 + 3 + 3 + 1);
+  EXPECT_EQ(rows.size(), 1u + 1 + 4 + 3 + 3 + 1);
   const std::vector<pace_row> valid = rows.valid_paces();
   ASSERT_EQ(valid.size(), 2u);
   EXPECT_EQ(valid[0].round, 1);
@@ -104,16 +106,16 @@ TEST_F(rows_files, paces_count_with_their_round) {
 }
 
 TEST_F(rows_files, a_round_row_must_close_what_is_there) {
-  const std::string environment = format_row(example::environment()) + "\n",
+  const std::string environment = format_row(example::environment()) + "\n" + format_row(example::backend()) + "\n",
                     one = format_row(example::measured()) + "\n";
   const auto close = [](std::uint64_t rows) { return format_row(example::closing(rows)) + "\n"; };
   EXPECT_NO_THROW(read_rows(put("fine.jsonl", environment + one + one + close(2))));
   EXPECT_CONTAINS(message_of([&] { read_rows(put("few.jsonl", environment + one + close(2))); }),
-                  ":3: key \"rows\" should be the number of samples of the round, 1, is 2");
+                  ":4: key \"rows\" should be the number of samples of the round, 1, is 2");
   EXPECT_CONTAINS(message_of([&] { read_rows(put("late.jsonl", environment + close(0) + one)); }),
-                  ":3: key \"round\" names round 2, which a round row before it has closed");
+                  ":4: key \"round\" names round 2, which a round row before it has closed");
   EXPECT_CONTAINS(message_of([&] { read_rows(put("twice.jsonl", environment + one + close(1) + close(1))); }),
-                  ":4: key \"round\" names round 2, which is closed already");
+                  ":5: key \"round\" names round 2, which is closed already");
 }
 
 TEST_F(rows_files, a_cut_last_row_can_be_dropped) {
@@ -122,14 +124,14 @@ TEST_F(rows_files, a_cut_last_row_can_be_dropped) {
   for (const std::string& cut :
        {whole.substr(0, last + 1), whole.substr(0, whole.size() - 1), whole.substr(0, whole.size() - 5) + "\n"}) {
     const auto path = put("cut.jsonl", cut);
-    EXPECT_EQ(drop_cut_line(path), cut.size() - last);
+    EXPECT_EQ(rows_reader(path).drop_cut_line(), cut.size() - last);
     EXPECT_EQ(get(path), whole.substr(0, last));
-    EXPECT_EQ(drop_cut_line(path), 0u);
+    EXPECT_EQ(rows_reader(path).drop_cut_line(), 0u);
     row_writer(path).write(example::voided());
     EXPECT_EQ(get(path), whole);
   }
-  EXPECT_EQ(drop_cut_line(file("none.jsonl")), 0u);
-  EXPECT_CONTAINS(message_of([&] { drop_cut_line(put("foreign", "text\n")); }), "is no rows file");
+  EXPECT_EQ(rows_reader(file("none.jsonl")).drop_cut_line(), 0u);
+  EXPECT_CONTAINS(message_of([&] { rows_reader(put("foreign", "text\n")).drop_cut_line(); }), "is no rows file");
 }
 
 TEST_F(rows_files, a_cut_last_row_is_reported_and_the_rows_before_it_are_readable) {
@@ -138,14 +140,14 @@ TEST_F(rows_files, a_cut_last_row_is_reported_and_the_rows_before_it_are_readabl
   for (std::size_t length = last + 1; length < whole.size(); ++length) {
     const auto path = put("cut.jsonl", whole.substr(0, length));
     const std::string what = message_of([&] { read_rows(path); });
-    EXPECT_EQ(what.find(path.string() + ":4: the last line is cut"), 0u) << what;
-    EXPECT_CONTAINS(what, "3 whole rows before it");
+    EXPECT_EQ(what.find(path.string() + ":5: the last line is cut"), 0u) << what;
+    EXPECT_CONTAINS(what, "4 whole rows before it");
     EXPECT_EQ(message_of([&] { row_writer writer(path); }), what);
     const rows_file rows = read_rows(path, cut_line::drop);
     EXPECT_TRUE(rows.last_line_cut);
-    EXPECT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows.size(), 4u);
   }
-  EXPECT_EQ(read_rows(put("cut.jsonl", whole.substr(0, last))).size(), 3u);
+  EXPECT_EQ(read_rows(put("cut.jsonl", whole.substr(0, last))).size(), 4u);
 }
 
 TEST_F(rows_files, a_first_row_that_is_cut_is_told_from_a_foreign_file) {
@@ -161,8 +163,8 @@ TEST_F(rows_files, a_first_row_that_is_cut_is_told_from_a_foreign_file) {
 TEST_F(rows_files, a_last_line_with_cut_json_and_a_newline_is_cut) {
   const auto path = write_example();
   const auto cut = put("cut.jsonl", get(path) + "{\"kind\":\"sam\n");
-  EXPECT_CONTAINS(message_of([&] { read_rows(cut); }), ":5: the last line is cut");
-  EXPECT_EQ(read_rows(cut, cut_line::drop).size(), 4u);
+  EXPECT_CONTAINS(message_of([&] { read_rows(cut); }), ":6: the last line is cut");
+  EXPECT_EQ(read_rows(cut, cut_line::drop).size(), 5u);
 }
 
 TEST_F(rows_files, a_killed_writer_leaves_whole_rows) {
@@ -173,7 +175,7 @@ TEST_F(rows_files, a_killed_writer_leaves_whole_rows) {
     try {
       row_writer writer(path);
       writer.write(example::environment());
-      while (true) writer.write(example::measured());
+      while (true) write_sample(writer, example::measured());
     } catch (...) {
       ::_exit(1);
     }
@@ -191,19 +193,71 @@ TEST_F(rows_files, wrong_rows_name_file_line_and_key) {
   bad["phases"]["sum_s"] = "slow";
   const auto wrong = put("wrong.jsonl", get(path) + bad.dump() + "\n" + get(path));
   EXPECT_EQ(message_of([&] { read_rows(wrong); }),
-            wrong.string() + ":5: key \"phases.sum_s\" should be a number or null, is a string");
+            wrong.string() + ":6: key \"phases.sum_s\" should be a number or null, is a string");
   const auto garbage = put("garbage.jsonl", get(path) + "oops\n" + get(path));
-  EXPECT_EQ(message_of([&] { read_rows(garbage); }), garbage.string() + ":5: it is no whole JSON value");
+  EXPECT_EQ(message_of([&] { read_rows(garbage); }), garbage.string() + ":6: it is no whole JSON value");
   bad["phases"]["sum_s"] = 1;
   std::string huge = bad.dump();
   huge.replace(huge.find("0.00594"), 7, "1e99999");
   const auto range = put("range.jsonl", get(path) + huge + "\n" + get(path));
-  EXPECT_CONTAINS(message_of([&] { read_rows(range); }), ":5: it holds a number out of range");
+  EXPECT_CONTAINS(message_of([&] { read_rows(range); }), ":6: it holds a number out of range");
 }
 
 TEST_F(rows_files, a_sample_needs_its_environment_row_before_it) {
   const auto path = put("rows.jsonl", format_row(example::measured()) + "\n");
   EXPECT_CONTAINS(message_of([&] { read_rows(path); }), "key \"environment\" should name an environment row before it");
+}
+
+TEST_F(rows_files, a_sample_needs_its_backend_row_before_it) {
+  const std::string environment = format_row(example::environment()) + "\n",
+                    measured = format_row(example::measured()) + "\n";
+  EXPECT_CONTAINS(message_of([&] { read_rows(put("rows.jsonl", environment + measured)); }),
+                  ":2: key \"point.backend\" should name a backend row of its environment before it, is "
+                  "\"symmetric_omp\"");
+  environment_row other = example::environment();
+  other.environment = "00000000000000ff";
+  backend_row b = example::backend();
+  b.environment = other.environment;
+  const std::string of_another = format_row(other) + "\n" + format_row(b) + "\n";
+  EXPECT_CONTAINS(message_of([&] { read_rows(put("rows.jsonl", of_another + environment + measured)); }),
+                  ":4: key \"point.backend\"");
+  EXPECT_CONTAINS(message_of([&] { read_rows(put("rows.jsonl", format_row(b) + "\n")); }), "key \"environment\"");
+}
+
+TEST_F(rows_files, a_file_of_schema_2_needs_no_backend_rows) {
+  nlohmann::json environment = nlohmann::json::parse(format_row(example::environment())),
+                 measured = nlohmann::json::parse(format_row(example::measured()));
+  environment["schema"] = measured["schema"] = former_row_schema;
+  for (const char* key : {"lost", "threads_worked"}) measured.erase(key);
+  for (const char* key : {"flops", "bytes"}) measured["work"].erase(key);
+  const rows_file rows = read_rows(put("rows.jsonl", environment.dump() + "\n" + measured.dump() + "\n"));
+  EXPECT_EQ(rows.samples.size(), 1u);
+  EXPECT_TRUE(rows.former_schema);
+  EXPECT_FALSE(read_rows(write_example("new.jsonl")).former_schema);
+}
+
+TEST_F(rows_files, a_file_that_grows_is_read_once) {
+  const auto path = write_example();
+  rows_reader reader(path);
+  const std::uint64_t before = bytes_of_rows_read();
+  reader.read_on();
+  EXPECT_EQ(reader.rows().size(), 5u);
+  row_writer writer(path, reader.known());
+  for (int k = 0; k < 20; ++k) {
+    writer.write(example::measured());
+    reader.read_on();
+  }
+  EXPECT_EQ(reader.rows().samples.size(), 22u);
+  EXPECT_EQ(bytes_of_rows_read() - before, std::filesystem::file_size(path));
+  EXPECT_EQ(format_row(reader.rows().samples.back()), format_row(read_rows(path).samples.back()));
+  put("rows.jsonl", get(path) + "{\"kind\":");
+  EXPECT_CONTAINS(message_of([&] { reader.read_on(); }), ":26: the last line is cut");
+  EXPECT_EQ(reader.drop_cut_line(), 8u);
+  writer.write(example::measured());
+  reader.read_on();
+  EXPECT_EQ(reader.rows().samples.size(), 23u);
+  put("rows.jsonl", get(path) + "oops\n" + format_row(example::measured()) + "\n");
+  EXPECT_CONTAINS(message_of([&] { reader.read_on(); }), ":27: it is no whole JSON value");
 }
 
 TEST_F(rows_files, files_that_are_no_rows_are_refused_in_one_line) {
@@ -220,8 +274,9 @@ TEST_F(rows_files, files_that_are_no_rows_are_refused_in_one_line) {
   EXPECT_CONTAINS(message_of([&] { read_rows(file("none")); }), "No such file");
   EXPECT_CONTAINS(message_of([&] { read_rows(folder_); }), "is a folder");
   const auto other = put("other", "{\"schema\":\"pairsum.row/9\",\"kind\":\"void\"}\n");
-  EXPECT_EQ(message_of([&] { read_rows(other); }),
-            other.string() + ":1: key \"schema\" should be \"pairsum.row/2\", is \"pairsum.row/9\"");
+  EXPECT_EQ(
+      message_of([&] { read_rows(other); }),
+      other.string() + ":1: key \"schema\" should be \"pairsum.row/3\" or \"pairsum.row/2\", is \"pairsum.row/9\"");
 }
 
 TEST_F(rows_files, places_that_cannot_be_written_are_refused_in_one_line) {
@@ -238,14 +293,16 @@ TEST_F(rows_files, a_row_that_could_not_be_read_is_not_written) {
   row_writer writer(path);
   EXPECT_CONTAINS(message_of([&] { writer.write(example::measured()); }), "no environment row");
   writer.write(example::environment());
+  EXPECT_CONTAINS(message_of([&] { writer.write(example::measured()); }), "no backend row");
+  writer.write(example::backend());
   const std::string before = get(path);
   sample s = example::measured();
   s.point.dx = std::nan("");
-  EXPECT_CONTAINS(message_of([&] { writer.write(s); }),
+  EXPECT_CONTAINS(message_of([&] { write_sample(writer, s); }),
                   "the row is wrong: key \"point.dx\" should be a number, is null");
   s = example::measured();
   s.round = 0;
-  EXPECT_CONTAINS(message_of([&] { writer.write(s); }), "key \"round\"");
+  EXPECT_CONTAINS(message_of([&] { write_sample(writer, s); }), "key \"round\"");
   EXPECT_EQ(get(path), before);
 }
 

@@ -7,6 +7,7 @@
 
 #include "harness/rows/point_words.hpp"
 #include "harness/rows/row.hpp"
+#include "harness/rows/threads_worked.hpp"
 #include "harness/rows/variant_names.hpp"
 #include "tests/rows/example_rows.hpp"
 #include "tests/rows/scratch.hpp"
@@ -25,6 +26,7 @@ TEST(row, every_kind_survives_a_round_trip) {
   EXPECT_EQ(round_trip(example::measured()), example::measured());
   EXPECT_EQ(round_trip(example::failed()), example::failed());
   EXPECT_EQ(round_trip(example::environment()), example::environment());
+  EXPECT_EQ(round_trip(example::backend()), example::backend());
   EXPECT_EQ(round_trip(example::voided()), example::voided());
   EXPECT_EQ(round_trip(example::peak()), example::peak());
   EXPECT_EQ(round_trip(example::pace()), example::pace());
@@ -35,6 +37,11 @@ TEST(row, every_kind_survives_a_round_trip) {
   bare.caches.clear();
   bare.libraries.clear();
   EXPECT_EQ(round_trip(bare), bare);
+  backend_row plain = example::backend();
+  plain.self_test->expected.reset();
+  EXPECT_EQ(round_trip(plain), plain);
+  plain.self_test.reset();
+  EXPECT_EQ(round_trip(plain), plain);
 }
 
 TEST(row, nested_structs_survive_a_round_trip) {
@@ -82,18 +89,17 @@ TEST(row, every_missing_key_is_named) {
   const json whole = json::parse(format_row(example::measured()));
   for (const auto& item : whole.items()) {
     const std::string key = item.key();
-    if (key == "workspace_bytes") continue;
     EXPECT_CONTAINS(rejection(example::measured(), [&](json& j) { j.erase(key); }), "key \"" + key + "\" is missing");
     if (!item.value().is_object()) continue;
     for (const auto& inner : item.value().items()) {
       const std::string inner_key = inner.key();
-      if (inner_key == "block") continue;
       EXPECT_EQ(rejection(example::measured(), [&](json& j) { j[key].erase(inner_key); }),
                 "key \"" + key + "." + inner_key + "\" is missing");
     }
   }
-  for (const row& value : {row(example::environment()), row(example::voided()), row(example::peak()),
-                           row(example::pace()), row(example::closing()), row(example::ended())}) {
+  for (const row& value :
+       {row(example::environment()), row(example::backend()), row(example::voided()), row(example::peak()),
+        row(example::pace()), row(example::closing()), row(example::ended())}) {
     const json other = json::parse(format_row(value));
     for (const auto& item : other.items()) {
       const std::string key = item.key();
@@ -102,28 +108,58 @@ TEST(row, every_missing_key_is_named) {
   }
 }
 
-TEST(row, a_point_of_before_there_were_blocks_has_none) {
+/// The example as schema 2 wrote it.
+json former() {
   json j = json::parse(format_row(example::measured()));
-  EXPECT_EQ(j["point"]["block"], "none");
+  j["schema"] = "pairsum.row/2";
+  for (const char* key : {"lost", "threads_worked"}) j.erase(key);
+  for (const char* key : {"flops", "bytes"}) j["work"].erase(key);
+  return j;
+}
+
+TEST(row, a_row_of_schema_2_says_nothing_of_what_came_with_schema_3) {
+  sample bare = example::measured();
+  bare.lost = bare.threads_worked = std::nullopt;
+  bare.work->flops = bare.work->bytes = std::nullopt;
+  EXPECT_EQ(std::get<sample>(parse_row(former())), bare);
+  for (const char* key : {"lost", "threads_worked"}) {
+    json j = former();
+    j[key] = 1;
+    EXPECT_EQ(message_of([&] { parse_row(j); }), "key \"" + std::string(key) + "\" is not known in this kind of row");
+  }
+  json j = former();
+  j["work"]["flops"] = 1.0;
+  EXPECT_EQ(message_of([&] { parse_row(j); }), "key \"work.flops\" is not known in this kind of row");
+  EXPECT_EQ(rejection(example::backend(), [](json& b) { b["schema"] = "pairsum.row/2"; }),
+            "key \"schema\" should be \"pairsum.row/3\", is \"pairsum.row/2\"");
+}
+
+TEST(row, a_point_of_before_there_were_blocks_has_none) {
+  json j = former();
   j["point"].erase("block");
-  EXPECT_EQ(std::get<sample>(parse_row(j)), example::measured());
+  EXPECT_EQ(std::get<sample>(parse_row(j)).point, example::measured().point);
   j["point"]["block"] = 4;
   EXPECT_EQ(message_of([&] { parse_row(j); }), "key \"point.block\" should be a string, is the number 4");
 }
 
 TEST(row, a_row_of_before_workspaces_were_measured_says_nothing_of_them) {
-  json j = json::parse(format_row(example::measured()));
-  EXPECT_EQ(j["workspace_bytes"], 9876543);
+  json j = former();
+  EXPECT_EQ(std::get<sample>(parse_row(j)).workspace_bytes, 9876543u);
   j.erase("workspace_bytes");
-  sample without = example::measured();
-  without.workspace_bytes.reset();
-  EXPECT_EQ(std::get<sample>(parse_row(j)), without);
-  j["workspace_bytes"] = nullptr;
-  EXPECT_EQ(std::get<sample>(parse_row(j)), without);
+  EXPECT_EQ(std::get<sample>(parse_row(j)).workspace_bytes, std::nullopt);
   for (const json& wrong : {json(-1), json(1.5), json("1")}) {
     j["workspace_bytes"] = wrong;
     EXPECT_NE(message_of([&] { parse_row(j); }), "") << wrong;
   }
+}
+
+TEST(row, threads_that_had_next_to_nothing_to_do_did_not_work) {
+  EXPECT_EQ(threads_worked({{0.5, 0.4}, {0.5, 0.4}}), 2u);
+  EXPECT_EQ(threads_worked({{0.5, 1e-7}, {0.5, 1e-7}}), 1u);
+  EXPECT_EQ(threads_worked({{0.5, 1e-7}, {1e-7, 0.5}}), 2u) << "each in a pass of its own";
+  EXPECT_EQ(threads_worked({{1.0, 0.011, 0.009}}), 2u);
+  EXPECT_EQ(threads_worked({{0.0, 0.0}}), 0u);
+  EXPECT_EQ(threads_worked({}), 0u);
 }
 
 TEST(row, a_grid_without_M_has_null_and_no_zero) {
@@ -161,9 +197,9 @@ TEST(row, a_point_in_words) {
 }
 
 TEST(row, every_key_of_another_type_is_named) {
-  for (const row& value :
-       {row(example::measured()), row(example::environment()), row(example::voided()), row(example::failed()),
-        row(example::peak()), row(example::pace()), row(example::closing()), row(example::ended())}) {
+  for (const row& value : {row(example::measured()), row(example::environment()), row(example::voided()),
+                           row(example::failed()), row(example::backend()), row(example::peak()), row(example::pace()),
+                           row(example::closing()), row(example::ended())}) {
     const json whole = json::parse(format_row(value));
     for (const auto& item : whole.items()) {
       const std::string key = item.key();
@@ -194,10 +230,11 @@ TEST(row, messages_say_what_is_right_and_what_is_there) {
   EXPECT_EQ(rejection(s, [](json& j) { j["point"] = json::array(); }),
             "key \"point\" should be an object, is an array");
   EXPECT_EQ(rejection(s, [](json& j) { j["schema"] = "pairsum.row/1"; }),
-            "key \"schema\" should be \"pairsum.row/2\", is \"pairsum.row/1\"");
-  EXPECT_EQ(rejection(s, [](json& j) { j["kind"] = "samples"; }),
-            "key \"kind\" should be \"sample\", \"environment\", \"peak\", \"pace\", \"round\", \"end\" or \"void\", "
-            "is \"samples\"");
+            "key \"schema\" should be \"pairsum.row/3\" or \"pairsum.row/2\", is \"pairsum.row/1\"");
+  EXPECT_EQ(
+      rejection(s, [](json& j) { j["kind"] = "samples"; }),
+      "key \"kind\" should be \"sample\", \"environment\", \"backend\", \"peak\", \"pace\", \"round\", \"end\" or "
+      "\"void\", is \"samples\"");
   EXPECT_EQ(rejection(s, [](json& j) { j["verify"]["fingerprint"] = "xyz"; }),
             "key \"verify.fingerprint\" should be 16 hex digits, is \"xyz\"");
   EXPECT_EQ(rejection(s, [](json& j) { j["utc"] = "22.11.2026"; }),

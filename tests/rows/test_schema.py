@@ -1,5 +1,6 @@
 """The JSON Schema of a row against rows written by the program: it accepts them, and rejects broken
-ones exactly where the strict reader does. CTest names the program in PAIRSUM_ROWS_EXAMPLE."""
+ones exactly where the strict reader does. CTest names the program in PAIRSUM_ROWS_EXAMPLE. Every rows
+file under results/ is held against it, too."""
 
 import copy
 import json
@@ -11,7 +12,9 @@ import jsonschema
 import pytest
 
 PROGRAM = os.environ.get("PAIRSUM_ROWS_EXAMPLE")
-SCHEMA = pathlib.Path(__file__).parents[2] / "harness" / "rows" / "row.schema.json"
+ROOT = pathlib.Path(__file__).parents[2]
+SCHEMA = ROOT / "harness" / "rows" / "row.schema.json"
+COMMITTED = sorted((ROOT / "results").glob("*/*.jsonl"))
 
 pytestmark = pytest.mark.skipif(not PROGRAM, reason="PAIRSUM_ROWS_EXAMPLE names no rows_example")
 
@@ -28,6 +31,30 @@ def rows(tmp_path_factory):
     path = tmp_path_factory.mktemp("rows") / "rows.jsonl"
     subprocess.run([PROGRAM, "write", path], check=True)
     return [json.loads(line) for line in path.read_text().splitlines()]
+
+
+@pytest.fixture(scope="module")
+def sample(rows):
+    return next(row for row in rows if row["kind"] == "sample")
+
+
+@pytest.fixture(scope="module")
+def former(sample):
+    """The sample as schema 2 wrote it."""
+    row = dict(sample, schema="pairsum.row/2", work=dict(sample["work"]))
+    for inner, key in ((row, "lost"), (row, "threads_worked"), (row["work"], "flops"), (row["work"], "bytes")):
+        del inner[key]
+    return row
+
+
+def before(rows, row):
+    """What a file must hold before the row: its environment and, for a sample, its backend, whatever it is called."""
+    environment, backend = (next(r for r in rows if r["kind"] == kind) for kind in ("environment", "backend"))
+    if row["kind"] == "environment":
+        return []
+    if row["kind"] == "sample" and isinstance(row["point"], dict) and isinstance(row["point"].get("backend"), str):
+        return [environment, dict(backend, name=row["point"]["backend"])]
+    return [environment]
 
 
 def reader_accepts(folder, lines):
@@ -58,22 +85,23 @@ def changed(row, place, new):
 
 
 def test_every_kind_is_written_and_valid(rows, validator):
-    assert [row["kind"] for row in rows] == ["environment", "peak", "sample", "sample", "pace", "round", "end", "void"]
+    assert [row["kind"] for row in rows] == ["environment", "peak", "backend", "sample", "sample", "pace", "round", "end", "void"]
     for row in rows:
         validator.validate(row)
 
 
-def test_rows_with_a_key_missing_are_rejected(rows, validator):
-    for row in rows:
+def test_rows_with_a_key_missing_are_rejected(rows, former, validator):
+    for row in [*rows, former]:
         for place in places(row):
-            free = place[0] in ("caches", "libraries") and len(place) == 2 or place in (("point", "block"), ("workspace_bytes",))
+            free = place[0] in ("caches", "libraries") and len(place) == 2
+            free = free or row is former and place in (("point", "block"), ("workspace_bytes",))
             assert validator.is_valid(changed(row, place, ...)) == free, place
 
 
-def test_rows_with_an_unknown_key_are_rejected(rows, validator):
-    for row in rows:
+def test_rows_with_an_unknown_key_are_rejected(rows, former, validator):
+    for row in [*rows, former]:
         objects = [()] + [place for place in places(row)
-                          if place[-1] in ("point", "phases", "work", "verify", "counters")]
+                          if place[-1] in ("point", "phases", "work", "verify", "counters", "self_test")]
         for place in objects:
             if place and not isinstance(row[place[0]], dict):
                 continue
@@ -81,15 +109,29 @@ def test_rows_with_an_unknown_key_are_rejected(rows, validator):
 
 
 @pytest.mark.parametrize("new", [None, "text", -1, 0, 1.5, True, [], {}, [0.5], ["text"]])
-def test_schema_and_reader_agree_on_changed_values(rows, validator, tmp_path, new):
-    environment = rows[0]
-    for row in rows:
+def test_schema_and_reader_agree_on_changed_values(rows, former, validator, tmp_path, new):
+    for row in [*rows, former]:
         if row["kind"] == "round":
             row = dict(row, rows=0)  # it closes a round without samples
         for place in places(row):
             broken = changed(row, place, new)
-            lines = [broken] if row is environment else [environment, broken]
+            lines = [*before(rows, dict(row, point=broken.get("point"))), broken]
             assert validator.is_valid(broken) == reader_accepts(tmp_path, lines), (place, new)
+
+
+@pytest.mark.parametrize("place, new", [
+    (("lost",), 0), (("threads_worked",), 1), (("work", "flops"), 1.0), (("work", "bytes"), None), (("kind",), "backend"),
+])
+def test_rows_of_schema_2_have_nothing_of_schema_3(rows, former, validator, tmp_path, place, new):
+    assert validator.is_valid(former) and reader_accepts(tmp_path, [*before(rows, former), former])
+    broken = changed(former, place, new)
+    assert not validator.is_valid(broken)
+    assert not reader_accepts(tmp_path, [*before(rows, former), broken])
+
+
+def test_backends_are_rows_of_schema_3(rows, validator):
+    backend = next(row for row in rows if row["kind"] == "backend")
+    assert not validator.is_valid(dict(backend, schema="pairsum.row/2"))
 
 
 @pytest.mark.parametrize("place, new", [
@@ -102,7 +144,36 @@ def test_schema_and_reader_agree_on_changed_values(rows, validator, tmp_path, ne
     (("error",), "text beside phases"),
     (("seed",), 1e30),
 ])
-def test_samples_with_a_wrong_value_are_rejected(rows, validator, tmp_path, place, new):
-    broken = changed(rows[2], place, new)
+def test_samples_with_a_wrong_value_are_rejected(rows, sample, validator, tmp_path, place, new):
+    broken = changed(sample, place, new)
     assert not validator.is_valid(broken)
-    assert not reader_accepts(tmp_path, [rows[0], broken])
+    assert not reader_accepts(tmp_path, [*before(rows, sample), broken])
+
+
+def complaints(path, validator):
+    """What is wrong with a rows file, as FILE:LINE: KEY: WHY."""
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        for e in validator.iter_errors(json.loads(line)):
+            yield f"{path.name}:{number}: {'.'.join(map(str, e.absolute_path))}: {e.message}"
+
+
+def test_there_are_committed_rows():
+    assert len(COMMITTED) >= 8
+
+
+@pytest.mark.parametrize("path", COMMITTED, ids=lambda path: f"{path.parent.name}/{path.stem}")
+def test_committed_rows_are_valid(path, validator):
+    assert list(complaints(path, validator)) == []
+    assert subprocess.run([PROGRAM, "check", path], capture_output=True, text=True).stderr == ""
+
+
+def test_a_committed_row_that_was_changed_is_found(tmp_path, validator):
+    lines = COMMITTED[-1].read_text().splitlines()
+    at = next(k for k, line in enumerate(lines) if '"kind":"sample"' in line)
+    broken = json.loads(lines[at])
+    broken["phases"]["sum_s"] = -1
+    lines[at] = json.dumps(broken)
+    path = tmp_path / "changed.jsonl"
+    path.write_text("\n".join(lines) + "\n")
+    found = list(complaints(path, validator))
+    assert len(found) == 1 and found[0].startswith(f"changed.jsonl:{at + 1}: phases: "), found
