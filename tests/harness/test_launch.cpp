@@ -54,11 +54,14 @@ TEST_F(launch, hands_the_order_and_the_store_on) {
   store.save("key", "bytes");
   order_.round = 42;
   order_.store = store.descriptor();
+  order_.known = {{"0123456789abcdef"}, {{"0123456789abcdef", "naive"}}};
   launched("[ \"$1\" = worker ] && cat /proc/self/fd/$2 > " + seen.string() + "\ncat /proc/self/fd/" +
            std::to_string(order_.store) + " > " + stored.string());
   const order there = parse_order(nlohmann::json::parse(text_of(seen)));
   EXPECT_EQ(there.round, 42);
   EXPECT_EQ(there.store, order_.store);
+  EXPECT_EQ(there.known.environments, order_.known.environments);
+  EXPECT_EQ(there.known.backends, order_.known.backends);
   EXPECT_EQ(plan_hash(there.plan), plan_hash(order_.plan));
   EXPECT_NE(text_of(stored).find("keybytes"), std::string::npos);
 }

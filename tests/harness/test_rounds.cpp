@@ -111,6 +111,12 @@ TEST_F(rounds, narrow_intervals_end_a_part_before_its_most_rounds) {
   EXPECT_EQ(made["narrow"], 6) << "fewer give no interval";
 }
 
+known_names known_in(const std::filesystem::path& path) {
+  rows_reader reader(path);
+  reader.read_on();
+  return reader.known();
+}
+
 /// A row as the measurement of peaks writes it.
 peak_row peak(const std::string& environment, int threads) {
   return {"test", utc_now(), environment, threads, "double", 1e10, 1e9};
@@ -190,6 +196,7 @@ TEST_F(peaks, that_are_there_are_not_measured_by_the_process_either) {
   o.what = errand::peaks;
   o.plan = plan_;
   o.out = path_.string();
+  o.known = known_in(path_);
   o.binding = "none";
   ASSERT_EQ(carry_out(o, registry::instance()), 0);
   EXPECT_EQ(read_rows(path_).peaks.size(), 2u);
