@@ -97,6 +97,8 @@ json point_entry(const measurements& all, const measured_point& p) {
   entry["ns_per_pair_parts"]["all"] = ns_per_pair(p, median_of_all_parts(p));
   entry["useful_pair_ratio"] = useful_pair_ratio(p);
   entry["work"] = p.work ? json(*p.work) : json(nullptr);
+  for (const char* in_model : {"flops", "bytes"})
+    if (p.work) entry["work"].erase(in_model);
   entry["peak_rss_bytes"] = p.peak_rss_bytes ? json(*p.peak_rss_bytes) : json(nullptr);
   entry["workspace_bytes"] = p.workspace_bytes ? json(*p.workspace_bytes) : json(nullptr);
   entry["fingerprint"] = p.fingerprint;

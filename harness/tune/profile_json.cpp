@@ -58,7 +58,7 @@ saved_profile read(const json& j) {
   p.cores = machine.integer("cores", 1);
   machine.finish();
   for (const char* key : {"n_fluid", "n_boundary", "rounds"}) from.count(key);
-  for (const char* key : {"time_s", "low", "high"}) from.seconds_or_null(key);
+  for (const char* key : {"time_s", "low", "high"}) from.amount_or_null(key);
   for (const char* key : {"phase", "git", "utc"}) from.text(key);
   from.finish();
   p.levels.backends = {words.words.backend};

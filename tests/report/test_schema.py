@@ -15,7 +15,7 @@ ROOT = pathlib.Path(__file__).parents[2]
 BIN = os.environ.get("PAIRSUM_BIN")
 SCHEMA = json.loads((ROOT / "harness" / "report" / "summary.schema.json").read_text())
 ROW_SCHEMA = json.loads((ROOT / "harness" / "rows" / "row.schema.json").read_text())
-SHARED = ("point", "work", "counters", "environment", "hex", "utc", "schema", "from_one", "from_one_or_null", "count", "count_or_null")
+SHARED = ("point", "counters", "environment", "hex", "utc", "schema", "from_one", "from_one_or_null", "count", "count_or_null")
 FREE = ("caches", "libraries")  # their keys are the machine's
 PLAN = {
     "schema": "pairsum.plan/1", "study": "small", "title": "everything that a report has a table for", "budget_s": 0,
@@ -44,6 +44,13 @@ def report_of(folder, *words):
     return json.loads((folder / "out" / "summary.json").read_text())
 
 
+def measured_work(folder):
+    """Flops and bytes of each point, as its rows say."""
+    rows = [json.loads(line) for line in (folder / "rows.jsonl").read_text().splitlines()]
+    return {json.dumps(row["point"], sort_keys=True): (row["work"]["flops"], row["work"]["bytes"])
+            for row in rows if row["kind"] == "sample" and row["work"]}
+
+
 @pytest.fixture(scope="module")
 def validator():
     jsonschema.Draft7Validator.check_schema(SCHEMA)
@@ -51,9 +58,13 @@ def validator():
 
 
 @pytest.fixture(scope="module")
-def summary(tmp_path_factory):
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("study")
+
+
+@pytest.fixture(scope="module")
+def summary(folder):
     """Of two algorithms, runtimes and M, with peaks, a copy and a corrupt backend."""
-    folder = tmp_path_factory.mktemp("study")
     (folder / "plan.json").write_text(json.dumps(PLAN))
     return report_of(folder, "plan.json")
 
@@ -87,6 +98,10 @@ def changed(data, place, new):
 def test_definitions_of_rows_are_those_of_the_rows():
     for name in SHARED:
         assert SCHEMA["definitions"][name] == ROW_SCHEMA["definitions"][name], name
+    work = copy.deepcopy(ROW_SCHEMA["definitions"]["work"])
+    for in_model in ("flops", "bytes"):
+        del work["properties"][in_model]
+    assert SCHEMA["definitions"]["work"] == work
 
 
 def test_a_real_summary_is_valid_and_has_what_was_measured(summary, validator):
@@ -97,6 +112,14 @@ def test_a_real_summary_is_valid_and_has_what_was_measured(summary, validator):
     assert {row["what"] for row in summary["strategy_shifts"]} == {"sparsity"}
     assert summary["answer"] and summary["points"][0]["model"] and summary["points"][0]["passes"]
     assert summary["rounds"]["finished"] == 6
+
+
+def test_models_have_the_flops_and_bytes_of_the_rows(summary, folder):
+    measured = measured_work(folder)
+    models = {json.dumps(p["point"], sort_keys=True): (p["model"]["flops"], p["model"]["bytes"])
+              for p in summary["points"] if p["model"]}
+    assert len(models) > 10
+    assert {point: measured[point] for point in models} == models
 
 
 def test_the_plots_accept_a_real_summary(summary):
