@@ -1,0 +1,17 @@
+"""Results of pairsum: rows in; tidy tables, comparisons, answers, figures and a page out.
+
+    import pairsum_results as pr
+    results = pr.load(["results/field"])
+    results.points[["case", "backend", "threads", "sum_s", "sum_s_low", "sum_s_high"]]
+    pr.speedup(results)[["backend", "threads", "ratio", "low", "high", "verdict"]]
+    pr.report(results).answer.text
+"""
+from .answers import Answer, answer  # noqa: F401
+from .compare import (algorithm_speedup, compared, compiler_comparison, m_comparison, runtime_comparison,  # noqa: F401
+                      speedup)
+from .ladders import ladder, over_threads, shifts, strategies  # noqa: F401
+from .load import COMMON, EVALUATION, PLACE, POINT, TIMES, Results, load  # noqa: F401
+from .model import models, shares  # noqa: F401
+from .reports import Report, report  # noqa: F401
+from .rows import PHASES, ResultsError  # noqa: F401
+from .self_tests import self_test  # noqa: F401

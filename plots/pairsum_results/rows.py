@@ -1,0 +1,254 @@
+"""Reads rows files strictly: every line is checked, and an error names the file, the line and what is wrong.
+
+Keys and meaning are those of docs/design.md, section 3.
+"""
+import json
+import math
+import pathlib
+import re
+from typing import Any, Callable, Iterable
+
+import numpy as np
+import pandas as pd
+
+SCHEMAS = ("pairsum.row/3", "pairsum.row/2")
+PHASES = ["index_s", "prepare_s", "zero_s", "sum_s", "reduce_s", "integrate_s", "total_s"]
+
+#: A row of each kind: key -> what it holds; "?" behind it where null may stand.
+_POINT = {"case": "text", "state": "text", "dx": "number", "H": "number", "n_fluid": "count", "n_boundary": "count",
+          "order": "text", "dim": "from one", "precision": "text", "interaction": "text", "smoothing": "text",
+          "integrator": "text", "dt": "number", "backend": "text", "grid": "text", "M": "from one?",
+          "threads": "from one", "granularity": "text", "isa": "text", "block": "text"}
+_WORK = {**dict.fromkeys(("cells", "cells_nonempty", "sumF1", "sumF2", "pairs_tested", "pairs_interacting",
+                          "pairs_fluid_fluid", "pairs_fluid_boundary"), "count"),
+         "pairs_tested_unfolded": "count?", "flops": "amount?", "bytes": "amount?",
+         "vector_units": {"block": "text", "lanes": "count", "vectors": "count", "occupancy": "number"}}
+_IN_ROUND = {"environment": "hex", "round": "from one"}
+_KINDS: dict[str, dict[str, Any]] = {
+    "sample": {**_IN_ROUND, "part": "text", "slot": "from one", "repetition": "from one", "step": "from one",
+               "seed": "count", "point": _POINT, "phases?": dict.fromkeys(PHASES, "amount?"),
+               "threads_busy_s": "times?", "barrier_wait_s": "times?",
+               "counters?": dict.fromkeys(("cycles", "instructions", "cache_misses"), "count?"), "work?": _WORK,
+               "peak_rss_bytes": "count?", "workspace_bytes": "count?", "lost": "count?", "threads_worked": "count?",
+               "verify": {"max_rel_err": "number?", "bound": "number?", "fingerprint": "hex?"}, "error": "text"},
+    "environment": {"environment": "hex", "caches": "counts", "cores": "from one", "governor": "text?",
+                    "libraries": "texts", "dirty": "flag",
+                    **dict.fromkeys(("host", "cpu", "os_kernel", "compiler", "flags", "git", "binding", "counters"),
+                                    "text")},
+    "backend": {"environment": "hex",
+                **dict.fromkeys(("name", "description", "aliases", "runtime", "conflicts"), "text"),
+                **dict.fromkeys(("symmetric", "deterministic", "vector", "blocks"), "flag"),
+                "self_test?": {"what": "text", "base_backend": "text", "expected": "amount?"}},
+    "peak": {"environment": "hex", "threads": "from one", "precision": "text", "bandwidth_bytes_per_s": "positive",
+             "flops_per_s": "positive"},
+    "pace": {**_IN_ROUND, "threads": "from one", "precision": "text", "flops_per_s": "positive"},
+    "round": {**_IN_ROUND, "part": "text", "replicate": "from one", "plan": "hex", "seed": "count", "rows": "count",
+              "elapsed_s": "positive", "others_share": "amount?"},
+    "void": {"round": "from one", "reason": "text"},
+    "end": {"plan": "hex", "reason": "text"}}
+_OPTIONAL = {"error", "work.vector_units"}
+_SINCE_3 = {"point.block", "workspace_bytes", "lost", "threads_worked", "work.flops", "work.bytes"}
+#: Objects whose keys are columns by their full names; those of the others, as "sum_s", tell what they are.
+_DOTTED = ("vector_units", "self_test")
+
+
+class ResultsError(Exception):
+    """Input that cannot be used; the text is one line for the user."""
+
+
+def _is_number(value: Any) -> bool:
+    return type(value) in (int, float) and math.isfinite(value)
+
+
+_NUMBERS = ("number", "amount", "positive", "count", "from one")
+_HEX = re.compile("[0-9a-f]{16}")
+_UTC = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z", re.ASCII)
+_TESTS: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "text": (lambda v: type(v) is str, "a string"),
+    "hex": (lambda v: type(v) is str and _HEX.fullmatch(v) is not None, "16 hex digits"),
+    "utc": (lambda v: type(v) is str and _UTC.fullmatch(v) is not None, "a UTC time like 2026-11-22T15:30:00.123Z"),
+    "flag": (lambda v: type(v) is bool, "true or false"),
+    "number": (_is_number, "a number"),
+    "amount": (lambda v: _is_number(v) and v >= 0, "a number >= 0"),
+    "positive": (lambda v: _is_number(v) and v > 0, "a number > 0"),
+    "count": (lambda v: type(v) is int and 0 <= v < 2**64, "an integer >= 0"),
+    "from one": (lambda v: type(v) is int and 1 <= v < 2**31, "an integer >= 1"),
+    "counts": (lambda v: type(v) is dict and all(type(n) is int and n >= 0 for n in v.values()),
+               "an object of integers >= 0"),
+    "texts": (lambda v: type(v) is dict and all(type(t) is str for t in v.values()), "an object of strings"),
+    "times": (lambda v: type(v) is list and all(type(one) is list and all(_is_number(s) and s >= 0 for s in one)
+                                                for one in v), "an array of arrays of numbers >= 0")}
+
+
+def describe(value: Any) -> str:
+    """What a JSON value is, in words."""
+    words = {type(None): "null", bool: "a boolean", list: "an array", dict: "an object"}
+    return words.get(type(value)) or (json.dumps(value)[:80] if isinstance(value, str) else f"the number {value}")
+
+
+class _Checked:
+    """The columns of the rows of one kind and schema; what is wrong goes to `faults` as (line, text)."""
+
+    def __init__(self, faults: list[tuple[int, str]], former: bool):
+        self.faults, self.former = faults, former
+
+    def frame(self, lines: list[int], objects: list[dict], spec: dict[str, Any], prefix: str = "",
+              dotted: str = "") -> pd.DataFrame:
+        """One line per object, with the line's number as index; nothing but nulls where an object is null."""
+        keys = {key.rstrip("?") for key in spec}
+        columns, parts = {}, []
+        for line, one in zip(lines, objects):
+            if not keys.issuperset(one):
+                self.fault(line, f'key "{prefix}{min(one.keys() - keys)}" is not known in this kind of row')
+        for key, kind in spec.items():
+            name = key.rstrip("?")
+            at, values = self._present(lines, objects, name, prefix)
+            if isinstance(kind, dict):
+                inner = [(line, one) for line, one in zip(at, values) if not (key != name and one is None)]
+                for line, one in inner:
+                    if type(one) is not dict:
+                        self.fault(line, f'key "{prefix}{name}" should be an object, is {describe(one)}')
+                inner = [(line, one) for line, one in inner if type(one) is dict]
+                parts.append(self.frame([line for line, _ in inner], [one for _, one in inner], kind,
+                                        f"{prefix}{name}.", f"{name}." if name in _DOTTED else ""))
+                continue
+            test, words = _TESTS[kind.rstrip("?")]
+            nullable = kind.endswith("?")
+            wrong = [k for k, value in enumerate(values) if not (test(value) or nullable and value is None)]
+            if wrong:
+                self.fault(at[wrong[0]], f'key "{prefix}{name}" should be {words}{" or null" if nullable else ""}, '
+                                         f"is {describe(values[wrong[0]])}")
+            elif kind.rstrip("?") in _NUMBERS and (nullable or not values):
+                values = np.array(values, dtype=float)  # null is NaN
+            columns[dotted + name] = pd.Series(values, at, dtype=object if isinstance(values, list) and not values else None)
+        return pd.concat([pd.DataFrame(columns, index=lines), *parts], axis=1)
+
+    def _present(self, lines: list[int], objects: list[dict], name: str, prefix: str) -> tuple[list[int], list]:
+        try:
+            return lines, [one[name] for one in objects]
+        except KeyError:
+            found = [(line, one[name]) for line, one in zip(lines, objects) if name in one]
+        full = prefix + name
+        if full not in _OPTIONAL and not (self.former and full in _SINCE_3):
+            self.fault(next(line for line, one in zip(lines, objects) if name not in one), f'key "{full}" is missing')
+        return [line for line, _ in found], [value for _, value in found]
+
+    def fault(self, line: int, text: str) -> None:
+        self.faults.append((line, text))
+
+
+def _no_constant(name: str) -> None:
+    raise ValueError(name)
+
+
+def _parsed(path: pathlib.Path) -> list[dict]:
+    """The JSON objects of the lines."""
+    try:
+        if path.exists() and not path.is_file():
+            raise ResultsError(f"{path}: is no regular file, should be a rows file")
+        text = path.read_bytes().decode("utf-8", errors="replace")
+    except OSError as problem:
+        raise ResultsError(f"{path}: cannot be read: {problem.strerror}") from None
+    if not text:
+        raise ResultsError(f"{path}: is empty, should hold rows of {SCHEMAS[0]}")
+    lines = text.split("\n")
+    cut = lines.pop() != ""
+    rows: list[dict] = []
+    decode = json.JSONDecoder(parse_constant=_no_constant).decode
+    for number, line in enumerate(lines + ([text.rsplit("\n", 1)[-1]] if cut else []), 1):
+        last = number == len(lines) + cut
+        try:
+            row = decode(line)
+        except (ValueError, RecursionError):
+            row = None
+        if number == 1 and not (type(row) is dict and "schema" in row or row is None and line.startswith('{"')):
+            raise ResultsError(f'{path}:1: this is no rows file: its first line should be a JSON object with "schema":'
+                               f'"{SCHEMAS[0]}"')
+        if last and (cut or row is None):
+            raise ResultsError(f"{path}:{number}: the last line is cut; remove it to keep the {len(rows)} whole rows "
+                               "before it")
+        if type(row) is not dict:
+            raise ResultsError(f"{path}:{number}: " + ("it is no whole JSON value" if row is None else
+                                                       f"a row should be an object, is {describe(row)}"))
+        rows.append(row)
+    return rows
+
+
+def _order_faults(rows: Iterable[tuple[int, dict]]) -> Iterable[tuple[int, str]]:
+    """What is wrong with the order of rows that are right by themselves."""
+    known, backends, closed, samples = set(), set(), set(), {}
+    for line, row in rows:
+        kind, environment, of_round = row["kind"], row.get("environment"), (row["study"], row.get("round"))
+        if kind == "environment":
+            known.add(environment)
+        elif environment is not None and environment not in known:
+            yield line, f'key "environment" should name an environment row before it, is "{environment}"'
+        if kind == "backend":
+            backends.add((environment, row["name"]))
+        if kind == "sample" and row["schema"] == SCHEMAS[0] and (environment, row["point"]["backend"]) not in backends:
+            yield line, ('key "point.backend" should name a backend row of its environment before it, is '
+                         f'"{row["point"]["backend"]}"')
+        if kind in ("sample", "pace", "round") and of_round in closed:
+            yield line, f'key "round" names round {of_round[1]}, which a round row before it has closed'
+        if kind == "sample":
+            samples[of_round] = samples.get(of_round, 0) + 1
+        if kind == "round":
+            closed.add(of_round)
+            if row["rows"] != samples.get(of_round, 0):
+                yield line, (f'key "rows" should be the number of samples of the round, {samples.get(of_round, 0)}, '
+                             f'is {row["rows"]}')
+
+
+def read_file(path: pathlib.Path) -> dict[str, pd.DataFrame]:
+    """The rows of one file by kind, in file order; index: line number. Raises ResultsError with one line."""
+    rows = _parsed(path)
+    faults: list[tuple[int, str]] = []
+    groups: dict[tuple[str, str], tuple[list[int], list[dict]]] = {}
+    for line, row in enumerate(rows, 1):
+        for key, words in (("schema", SCHEMAS), ("kind", tuple(_KINDS))):
+            if row.get(key) not in words:
+                said = " or ".join(json.dumps(w) for w in words)
+                faults.append((line, f'key "{key}" should be {said}, is {describe(row[key])}' if key in row
+                               else f'key "{key}" is missing'))
+                break
+        else:
+            lines, objects = groups.setdefault((row["kind"], row["schema"]), ([], []))
+            lines.append(line)
+            objects.append(row)
+    frames: dict[str, list[pd.DataFrame]] = {kind: [] for kind in _KINDS}
+    for (kind, schema), (lines, objects) in groups.items():
+        spec = {"schema": "text", "kind": "text", "study": "text", "utc": "utc", **_KINDS[kind]}
+        frames[kind].append(_Checked(faults, schema != SCHEMAS[0]).frame(lines, objects, spec))
+    end = min(faults)[0] if faults else len(rows) + 1
+    faults += _order_faults((line, row) for line, row in enumerate(rows, 1) if line < end)
+    if faults:
+        line, text = min(faults)
+        raise ResultsError(f"{path}:{line}: {text}")
+    empty = _Checked([], False)
+    return {kind: pd.concat(parts).sort_index() if parts else empty.frame([], [], {"study": "text", "utc": "utc",
+                                                                                  **_KINDS[kind]})
+            for kind, parts in frames.items()}
+
+
+def rows_paths(given: Iterable[str | pathlib.Path]) -> list[pathlib.Path]:
+    """The rows files of files and folders, each once."""
+    paths: list[pathlib.Path] = []
+    for path in map(pathlib.Path, given):
+        inside = [path]
+        if path.is_dir():
+            inside = sorted(p for p in path.glob("*.jsonl") if p.is_file() and p.stat().st_size > 0)
+            if not inside:
+                raise ResultsError(f"{path}: has no rows files (*.jsonl) in it")
+        paths += inside
+    if not paths:
+        raise ResultsError("a report needs at least one rows file or folder")
+    return list({path.resolve(): path for path in reversed(paths)}.values())[::-1]
+
+
+def read(given: Iterable[str | pathlib.Path]) -> dict[str, pd.DataFrame]:
+    """The rows of all files by kind, with "file" (0, 1, ...) and "source" (folder and file name) as columns."""
+    files = []
+    for number, path in enumerate(rows_paths(given)):
+        source = (pathlib.Path(path.parent.name) / path.name).as_posix()
+        files.append({kind: frame.assign(file=number, source=source) for kind, frame in read_file(path).items()})
+    return {kind: pd.concat([rows[kind] for rows in files], ignore_index=True) for kind in _KINDS}
