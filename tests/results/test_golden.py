@@ -1,0 +1,101 @@
+"""The numbers that pairsum's C++ report gave for the committed rows, to 1e-9, and what it said of them.
+
+With PAIRSUM_GOLDEN=FOLDER, a folder of summaries that it made (FOLDER/*/summary.json), everything in these is compared;
+else what golden.json keeps of them.
+
+What differs, and why: rows of schema 2 do not state the backends' traits, nor the flops and bytes of the model. So
+"Does it scale as well?" (gathers against symmetric sums) and "How far is that from what the machine can do?" are not
+answered from them.
+"""
+import json
+import math
+import os
+import pathlib
+
+import pytest
+from conftest import ROOT
+
+import make_golden
+import pairsum_results as pr
+
+UNKNOWN = ("Does it scale as well?", "How far is that from what the machine can do?")
+
+
+def _golden():
+    folder = os.environ.get("PAIRSUM_GOLDEN")
+    if not folder:
+        return json.loads((pathlib.Path(__file__).parent / "golden.json").read_text())
+    summaries = [json.loads(path.read_text()) for path in sorted(pathlib.Path(folder).glob("*/summary.json"))]
+    return {summary["sources"][0]: make_golden.condensed(summary) for summary in summaries}
+
+
+GOLDEN = _golden()
+
+
+def rows(table, *columns):
+    return table[list(columns)].values.tolist()
+
+
+def condensed(report):
+    """The same lists of rows as make_golden's."""
+    r, points, bounds = report.results, report.points, ("ratio", "low", "high")
+    backend = points["backend"]
+    ladder = report.ladder.assign(base=report.ladder["base"].map(backend))
+    threads = report.over_threads.assign(base=report.over_threads["base"].map(backend))
+    timed = [f"{name}{end}" for name in ("sum_s", "total_s") for end in ("", "_low", "_high")]
+    answer = report.answer
+    return {
+        "points": rows(points, *timed, "confidence", "rounds", "between", "within", "wait_share", "ns_per_pair"),
+        "speedup": rows(report.speedup, "point", "base", *bounds, "rounds", "verdict", "machine_flops_scaling",
+                        *(f"{name}{end}" for name in ("machine_speedup", "of_machine") for end in ("", "_low", "_high"))),
+        **{name: rows(report.tables[name], "point", "base", *bounds, "rounds", "verdict")
+           for name in ("algorithm_speedup", "runtime_comparison")},
+        "m_comparison": rows(report.m_comparison, "point", "best_M", "over_best", "verdict", "collision_share",
+                             "useful_pair_ratio"),
+        "ladder": rows(ladder, "point", "base", "at", "rank", "of", "time_s", *bounds, "verdict",
+                       *(f"{name}{end}" for name in ("over_serial", "efficiency") for end in ("", "_low", "_high")),
+                       "extra_bytes", "world") if len(ladder) else [],
+        "over_threads": rows(threads, "point", "base", *bounds, "rounds"),
+        "shifts": rows(report.shifts, "series", "backend", "base_series", "what", "rank", "base_rank", *bounds, "verdict"),
+        "breaks_down": rows(report.strategies, "backend", "breaks_down"),
+        "self_test": sorted(rows(report.self_test, "backend", "threads", "expected", *bounds, "confidence", "holds")),
+        "answer": [[answer.point, answer.text, answer.details, *(answer.ratio[b] for b in bounds), answer.ties]],
+        "questions": [[q["question"], q["answer"]] for q in report.questions],
+        "failed": rows(r.failed, "backend", "threads", "rows", "error"),
+        "caveats": [[c] for c in report.caveats],
+        "peaks": rows(r.peaks, "threads", "precision", "bandwidth_bytes_per_s", "flops_per_s"),
+        "rounds": [[len(r.closed), r.void_rounds, r.closed["others_share"].max()]],
+        "phases": rows(points, *(f"{name}{end}" for name in sorted(pr.PHASES) for end in ("", "_low", "_high")))}
+
+
+def same(found, expected):
+    if expected is None:
+        return found is None or found != found
+    if isinstance(expected, float) or isinstance(found, float):
+        return found is not None and math.isclose(found, expected, rel_tol=1e-9, abs_tol=1e-12)
+    if isinstance(expected, list):
+        return len(found) == len(expected) and all(map(same, found, expected))
+    return found == expected
+
+
+@pytest.fixture(scope="module", params=GOLDEN)
+def compared(request):
+    report = pr.report(pr.load([ROOT / "results" / request.param]))
+    return condensed(report), GOLDEN[request.param]
+
+
+def test_every_number_is_as_it_was(compared):
+    found, golden = compared
+    for name, expected in golden.items():
+        if name == "questions":
+            expected = [row for row in expected if row[0] not in UNKNOWN]
+        assert len(found[name]) == len(expected), name
+        wrong = [(a, b) for a, b in zip(found[name], expected) if not same(a, b)]
+        assert not wrong, f"{name}: {len(wrong)} of {len(expected)} differ, the first: {wrong[0]}"
+
+
+def test_a_number_that_is_off_is_found(compared):
+    found, golden = compared
+    value = golden["points"][0][0]
+    assert same(value, golden["points"][0][0]) and not same(value * (1 + 2e-9), value) and not same(None, value)
+    assert not same([*found["points"][0][:-1], 7.0], golden["points"][0]) and not same(float("nan"), value)
