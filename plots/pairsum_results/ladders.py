@@ -21,8 +21,6 @@ def ladder(results: Results) -> pd.DataFrame:
     where there are none. `efficiency` (more threads): speedup over the same on one thread, per thread. Both with `_low`
     and `_high`. `extra_bytes` (and `_per_particle`): memory beyond the leanest. `world`: the series in a few words."""
     rungs = _rungs(results)
-    if rungs.empty:
-        return compared(results, [], []).reindex(columns=[*compared(results, [], []), "at", "rank", "of", "world"])
     table = compared(results, rungs["base"], rungs["point"], EVALUATION).assign(
         **{name: rungs[name].to_numpy() for name in ("at", "rank", "of")})
     table["world"] = table["series"].map(worlds(results))
@@ -72,13 +70,13 @@ def _one_thread(results: Results) -> pd.Series:
 
 def made_for(results: Results) -> pd.Series:
     """Does each point sum on what its backend is made for: vector units, or none? A backend that does not say so (rows
-    of schema 2) is made for what it was measured on, if that is one instruction set."""
+    of schema 2) is made for what it was measured on, if that is one of the two."""
     points = results.points
     work = self_tests(results)["base_backend"].reindex(points["backend"]).fillna(pd.Series(points["backend"].to_numpy(),
                                                                                            points["backend"]))
     vector = results.backends["vector"].reindex(work).set_axis(points.index)
-    only = points.groupby("backend")["isa"].transform("nunique") == 1
-    return ((points["isa"] != "scalar") == vector).where(vector.notna(), only)
+    on_units = points["isa"] != "scalar"
+    return (on_units == vector).where(vector.notna(), on_units.groupby(points["backend"]).transform("nunique") == 1)
 
 
 def _serial(results: Results, table: pd.DataFrame) -> pd.Series:

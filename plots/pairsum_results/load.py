@@ -57,7 +57,6 @@ class Results:
     failed: pd.DataFrame
     void_rounds: int
     compares_builds: bool  #: different builds were measured in the same rounds
-    differences: str  #: between machines and builds, in words; "" if there are none
     caveats: list[str]
 
     def logs(self, phase: str = "sum_s") -> pd.DataFrame:
@@ -93,11 +92,11 @@ def collect(rows: dict[str, pd.DataFrame], allow_mixed: bool = False) -> Results
         raise ResultsError("there is no finished round in the rows; a study that was cut goes on when it is started again")
     environments, builds = _builds(rows["environment"], samples)
     samples = samples.merge(builds[["file", "environment", "build", "cores"]], on=["file", "environment"])
-    differences, together = _differences(environments), _measured_together(samples)
-    if differences and not together and not allow_mixed:
-        raise ResultsError(f"the rows come from different machines or builds: {differences}; report them apart, or with "
+    differ, together = differences(environments), _measured_together(samples)
+    if differ and not together and not allow_mixed:
+        raise ResultsError(f"the rows come from different machines or builds: {differ}; report them apart, or with "
                            "--allow-mixed as series of their own")
-    caveats = _caveats(closed, environments, differences, together)
+    caveats = _caveats(closed, environments, differ, together)
     backends = _backends(rows["backend"], samples)
     samples = _with_points(samples)
     failed = _failed(samples)
@@ -114,7 +113,7 @@ def collect(rows: dict[str, pd.DataFrame], allow_mixed: bool = False) -> Results
     peaks, paces = _peaks(rows["peak"], paces, environments)
     sources = list(dict.fromkeys(pd.concat([frame["source"] for frame in rows.values()])))
     return Results(sources, samples, rounds.reset_index(drop=True), points.drop(columns="fewest_steps"), series,
-                   environments, backends, peaks, paces, closed, failed, len(rows["void"]), together, differences, caveats)
+                   environments, backends, peaks, paces, closed, failed, len(rows["void"]), together, caveats)
 
 
 def cells_words(p) -> str:
@@ -148,7 +147,7 @@ def _builds(rows: pd.DataFrame, samples: pd.DataFrame) -> tuple[pd.DataFrame, pd
     return found.drop_duplicates(["environment", "host", "git"]).reset_index(drop=True), found
 
 
-def _differences(environments: pd.DataFrame) -> str:
+def differences(environments: pd.DataFrame) -> str:
     """What differs between machines and builds, like "host (a, b), git (x, y)"."""
     columns = {"host": "host", "cpu": "cpu", "compiler": "compiler", "flags": "flags", "git": "revision",
                "binding": "binding"}
@@ -163,16 +162,16 @@ def _measured_together(samples: pd.DataFrame) -> bool:
     return samples["build"].nunique() > 1 and len(with_first) == samples["build"].nunique()
 
 
-def _caveats(closed: pd.DataFrame, environments: pd.DataFrame, differences: str, together: bool) -> list[str]:
+def _caveats(closed: pd.DataFrame, environments: pd.DataFrame, differ: str, together: bool) -> list[str]:
     found = []
     for source, shares in closed.groupby("source", sort=False)["others_share"]:
         disturbed = int((shares > 0.05).sum())
         if disturbed:
             found.append(f"{source.split('/')[-1]}: in {disturbed} of {len(shares)} rounds other processes used more than "
                          "5 % of the machine")
-    if differences:
+    if differ:
         found.append(("the builds differ, which is what is compared: " if together else
-                      "rows of different machines or builds in one report: ") + differences)
+                      "rows of different machines or builds in one report: ") + differ)
     if environments["dirty"].any():
         found.append("built from a tree with uncommitted changes")
     loose = environments.loc[environments["binding"].str.startswith("none"), "binding"]

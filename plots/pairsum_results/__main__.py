@@ -1,0 +1,69 @@
+"""The programs: `python3 -m pairsum_results report FILE...` and `compare A B`."""
+import argparse
+import pathlib
+import sys
+
+from .rows import PHASES, ResultsError
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run a program; return its exit code: 0, or 2 with one line on stderr."""
+    parser = argparse.ArgumentParser(prog="pairsum")
+    programs = parser.add_subparsers(required=True, metavar="PROGRAM")
+    _report_program(programs)
+    _compare_program(programs)
+    options = parser.parse_args(arguments)
+    try:
+        options.run(options)
+    except ResultsError as problem:
+        print(f"pairsum: {' '.join(str(problem).split())}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def _report_program(programs) -> None:
+    program = programs.add_parser("report", help="tables and summary.json from rows files", description="Tables (text, "
+                                  "Markdown, CSV) and summary.json from rows files. Rows that failed their verification "
+                                  "never enter a table, nor do rounds that were cut.")
+    program.add_argument("inputs", nargs="+", metavar="FILE", help="rows files, or folders of them")
+    program.add_argument("--out", metavar="DIR", type=pathlib.Path,
+                         help="folder for the files (default: named like the rows file, beside it)")
+    program.add_argument("--allow-mixed", action="store_true",
+                         help="compare rows of different machines or builds nevertheless")
+    program.set_defaults(run=_report)
+
+
+def _report(options: argparse.Namespace) -> None:
+    from . import load, report, summary  # pandas and scipy take a moment, which --help need not wait for
+
+    first = pathlib.Path(options.inputs[0])
+    folder = options.out or (first if first.is_dir() else first.with_suffix(""))
+    print(summary.write(report(load(options.inputs, options.allow_mixed)), folder), end="")
+    print(f"summary: {folder / 'summary.json'}")
+
+
+def _compare_program(programs) -> None:
+    program = programs.add_parser(
+        "compare", help="is B faster than A, by how much, and how sure is that?", description="Is B faster than A, by how "
+        "much, and how sure is that? A and B are two backends, with words like precision=mixed for what else may differ, "
+        "two rows files (or folders), or two git revisions that rows were measured with.", epilog='example: pairsum '
+        'compare "symmetric_omp precision=double" "tiles_omp precision=mixed" --in results/vector')
+    program.add_argument("a", metavar="A", help="the base")
+    program.add_argument("b", metavar="B", help="what is compared with it")
+    program.add_argument("--in", dest="inputs", nargs="+", metavar="FILE", default=["results"],
+                         help="rows files or folders that hold the backends or revisions (default: results)")
+    program.add_argument("--phase", default="sum",
+                         help=f"{', '.join(phase.removesuffix('_s') for phase in PHASES)} (default: sum)")
+    program.add_argument("--allow-mixed", action="store_true",
+                         help="compare different machines, or builds with uncommitted changes, nevertheless")
+    program.set_defaults(run=_compare)
+
+
+def _compare(options: argparse.Namespace) -> None:
+    from .sides import compare_sides
+
+    print(compare_sides(options.a, options.b, options.inputs, options.phase, options.allow_mixed), end="")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
