@@ -185,6 +185,10 @@ def _order_faults(rows: Iterable[tuple[int, dict]]) -> Iterable[tuple[int, str]]
             yield line, f'key "environment" should name an environment row before it, is "{environment}"'
         if kind == "backend":
             backends.add((environment, row["name"]))
+        if kind == "sample" and ("error" in row) == (row["phases"] is not None):
+            yield line, ('key "phases" should be ' + ('null in a row with "error"' if "error" in row else
+                                                      'an object in a row without "error"')
+                         + f', is {describe(row["phases"])}')
         if kind == "sample" and row["schema"] == SCHEMAS[0] and (environment, row["point"]["backend"]) not in backends:
             yield line, ('key "point.backend" should name a backend row of its environment before it, is '
                          f'"{row["point"]["backend"]}"')

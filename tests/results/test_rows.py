@@ -1,0 +1,158 @@
+"""Reading rows: both schemas, what counts, and every bad file in one line that names it."""
+import json
+
+import made
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import pairsum_results as pr
+from pairsum_results import rows
+
+
+def changed(kind, /, **change):
+    """The small study with the first row of a kind changed; a value of ... takes the key away."""
+    def change_of(row):
+        for key, value in change.items():
+            *path, last = key.split("__")
+            inner = row
+            for name in path:
+                inner = inner[name]
+            if value is ...:
+                del inner[last]
+            else:
+                inner[last] = value
+
+    found = json.loads(json.dumps(made.study([(made.point("naive"), 1.0)], 2, [made.environment(), made.peak(1, 1.0, 1.0)])))
+    change_of(next(row for row in found if row["kind"] == kind))
+    return found
+
+
+WRONG = [
+    (changed("sample", round=0), '4: key "round" should be an integer >= 1, is the number 0'),
+    (changed("sample", part=7), '4: key "part" should be a string, is the number 7'),
+    (changed("sample", point__dx="x"), '4: key "point.dx" should be a number, is "x"'),
+    (changed("sample", point__M=0), '4: key "point.M" should be an integer >= 1 or null, is the number 0'),
+    (changed("sample", phases__sum_s=-1), '4: key "phases.sum_s" should be a number >= 0 or null, is the number -1'),
+    (changed("sample", phases=5), '4: key "phases" should be an object, is the number 5'),
+    (changed("sample", point=None), '4: key "point" should be an object, is null'),
+    (changed("sample", threads_busy_s=[[-1]]), 'key "threads_busy_s" should be an array of arrays of numbers >= 0 or null'),
+    (changed("sample", work__flops=...), '4: key "work.flops" is missing'),
+    (changed("sample", lost=...), '4: key "lost" is missing'),
+    (changed("sample", colour="red"), '4: key "colour" is not known in this kind of row'),
+    (changed("sample", verify__fingerprint="xyz"), '"verify.fingerprint" should be 16 hex digits or null, is "xyz"'),
+    (changed("sample", utc="today"), '4: key "utc" should be a UTC time like 2026-11-22T15:30:00.123Z, is "today"'),
+    (changed("sample", error="bad"), '4: key "phases" should be null in a row with "error", is an object'),
+    (changed("sample", phases=None), '4: key "phases" should be an object in a row without "error", is null'),
+    (changed("sample", environment="0" * 16), 'key "environment" should name an environment row before it'),
+    (changed("sample", point__backend="other"), 'key "point.backend" should name a backend row of its environment'),
+    (changed("sample", kind="simple"), '4: key "kind" should be "sample" or "environment"'),
+    (changed("sample", schema="pairsum.row/9"), '4: key "schema" should be "pairsum.row/3" or "pairsum.row/2"'),
+    (changed("round", rows=3), '6: key "rows" should be the number of samples of the round, 2, is 3'),
+    (changed("round") + [made.sample(made.point("naive"), 1.0, 2)], '10: key "round" names round 2, which a round row before it has closed'),
+    (changed("peak", flops_per_s=0), '2: key "flops_per_s" should be a number > 0, is the number 0'),
+    (changed("backend", symmetric="yes"), '3: key "symmetric" should be true or false, is "yes"'),
+    (changed("environment", cores=True), '1: key "cores" should be an integer >= 1, is a boolean'),
+]
+
+
+@pytest.mark.parametrize("content, says", WRONG, ids=[says[:60] for _, says in WRONG])
+def test_a_wrong_row_is_refused_with_its_line(tmp_path, content, says):
+    path = made.write(tmp_path / "rows.jsonl", content)
+    with pytest.raises(pr.ResultsError) as caught:
+        pr.load([path])
+    assert says in str(caught.value) and str(caught.value).startswith(f"{path}:") and "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("text, says", [
+    ("", "is empty, should hold rows of pairsum.row/3"),
+    ("hello\n", ":1: this is no rows file"),
+    ('{"a": 1}\n', ":1: this is no rows file"),
+    (json.dumps(made.environment()), ":1: the last line is cut; remove it to keep the 0 whole rows before it"),
+    (json.dumps(made.environment()) + '\n{"schema": "pair', ":2: the last line is cut; remove it to keep the 1 whole row"),
+    (json.dumps(made.environment()) + "\n{\n{}\n", ":2: it is no whole JSON value"),
+    (json.dumps(made.environment()).replace('"cores": 2', '"cores": NaN') + "\n{}\n", ":1: "),
+    (json.dumps(made.environment()) + "\n[]\n", ":2: a row should be an object, is an array"),
+    (json.dumps(made.environment()) + "\n", "there is no finished round in the rows"),
+])
+def test_a_wrong_file_is_refused(tmp_path, text, says):
+    path = tmp_path / "rows.jsonl"
+    path.write_text(text)
+    with pytest.raises(pr.ResultsError, match="^[^\n]*$") as caught:
+        pr.load([path])
+    assert says in str(caught.value)
+
+
+def test_files_that_are_none(tmp_path):
+    for given, says in (([], "at least one rows file"), ([tmp_path], "has no rows files"),
+                        ([tmp_path / "none.jsonl"], "No such file"), (["/dev/null"], "is no regular file")):
+        with pytest.raises(pr.ResultsError, match=says):
+            pr.load(given)
+
+
+def test_rows_of_both_schemas_give_the_same_times_and_null_for_what_is_not_said(tmp_path):
+    new = made.study(made.talk())
+    old = [row for row in map(made.former, new) if row]
+    one, other = (pr.load([made.write(tmp_path / name / "rows.jsonl", content)])
+                  for name, content in (("new", new), ("old", old)))
+    assert one.points[pr.TIMES].equals(other.points[pr.TIMES])
+    assert one.points["flops"].eq(1e9).all() and other.points[["flops", "lost", "workspace_bytes"]].isna().all(axis=None)
+    assert one.backends.loc["naive_omp", "runtime"] == "omp" and other.backends["runtime"].isna().all()
+    assert (other.points["block"] == "none").all()
+    assert len(pr.report(one).ladder) == len(pr.report(other).ladder) > 0
+
+
+def test_the_reader_knows_the_keys_of_the_row_schema():
+    schema = json.loads((ROOT / "harness/rows/row.schema.json").read_text())
+    if "pairsum.row/3" not in json.dumps(schema):
+        pytest.skip("the schema is that of the former rows")
+    known = schema["definitions"]
+    for kind, spec in rows._KINDS.items():
+        keys = {key.rstrip("?") for key in spec} | {"schema", "kind", "study", "utc"}
+        assert keys == set(known[kind]["properties"]), kind
+    assert set(rows._POINT) == set(known["point"]["properties"]) and set(rows._WORK) == set(known["work"]["properties"])
+
+
+def test_void_unfinished_and_unverified_rounds_do_not_count(tmp_path):
+    content = made.study([(made.point("naive"), 1.0), (made.point("symmetric"), 0.5)])
+    bad = next(row for row in content if row["kind"] == "sample" and row["round"] == 3)  # of naive: its round is out
+    bad["verify"]["fingerprint"] = None
+    content += [made.sample(made.point("naive"), 1000.0, 7), made.closing(7, 1),
+                made.head("void", round=7, reason="cut"), made.sample(made.point("naive"), 1000.0, 8)]
+    wrong = made.sample(made.point("naive", 9), 1.0, 9, error="particle 7 is off", phases=None)
+    content += [wrong, made.closing(9, 1)]
+    found = pr.load([made.write(tmp_path / "rows.jsonl", content)])
+    naive = found.points[found.points["backend"] == "naive"].iloc[0]
+    assert (naive["rounds"], len(found.points), found.void_rounds, len(found.closed)) == (5, 2, 1, 7)
+    assert naive["sum_s"] == pytest.approx(np.median([1.0, 1.2, 1.4, 0.9, 1.1]))
+    assert set(found.failed["error"]) == {"not verified", "particle 7 is off"}
+    assert "naive M=9 threads=1: 1 row without a passed verification left out" in pr.report(found).caveats
+
+
+def test_rows_of_different_builds_are_refused_unless_they_are_what_is_compared(tmp_path):
+    other = made.environment("1" * 16, compiler="Clang 14.0.6")
+    naive = made.point("naive")
+    made.write(tmp_path / "apart/a.jsonl", made.study([(naive, 1.0)]))
+    made.write(tmp_path / "apart/b.jsonl", made.study([(naive, 0.8, {"environment": "1" * 16})], before=[
+        other, made.environment()]))
+    with pytest.raises(pr.ResultsError, match=r"different machines or builds: compiler \(Clang 14.0.6, GNU 12.2.0\);"):
+        pr.load([tmp_path / "apart"])
+    mixed = pr.load([tmp_path / "apart"], allow_mixed=True)
+    assert len(mixed.series) == 2 and pr.compiler_comparison(mixed).empty
+    together = pr.load([made.write(tmp_path / "both.jsonl", made.study(
+        [(naive, 1.0), (naive, 0.8, {"environment": "1" * 16})], before=[made.environment(), other]))])
+    builds = pr.compiler_comparison(together).iloc[0]
+    assert builds["ratio"] == pytest.approx(1.25) and builds["verdict"] == "faster"
+    assert (builds["build"], builds["base_build"]) == ("Clang 14.0.6, git abc1234", "GNU 12.2.0, git abc1234")
+    assert any(c.startswith("the builds differ, which is what is compared: compiler") for c in together.caveats)
+
+
+def test_points_are_told_apart_by_what_they_are(tmp_path):
+    units = {"work": made.work(vector_units={"block": "none", "lanes": 8, "vectors": 10, "occupancy": 0.5})}
+    content = made.study([(made.point("tiles_omp", None, 2, grid="compact_grid", isa="avx512"), 1.0, units),
+                          (made.point("naive", isa="native"), 1.0), (made.point("naive", state="perturbed"), 1.0)])
+    found = pr.load([made.write(tmp_path / "rows.jsonl", content)])
+    isas = dict(zip(found.points["backend"], found.points["isa"]))
+    assert isas == {"tiles_omp": "avx512", "naive": "scalar"}  # rows used to name that of the build
+    assert np.isnan(found.points.set_index("backend")["M"]["tiles_omp"])
+    assert found.series["seed"].isna().to_list() == [True, False]  # particles at rest do not depend on it
