@@ -82,7 +82,7 @@ def peak(threads, flops, bandwidth):
                 flops_per_s=flops)
 
 
-def study(points, rounds=6, before=(), close=True):
+def study(points, rounds=6, before=()):
     """Rows of rounds in which each point, (place, sum_s) or (place, sum_s, change of its samples), was measured: two
     steps, whose mean is the stated time. A change may be a function of the round."""
     environments = [row for row in before if row["kind"] == "environment"] or [environment()]
@@ -98,7 +98,7 @@ def study(points, rounds=6, before=(), close=True):
             rest = {key: value for key, value in change.items() if key != "time"}
             if k <= rest.pop("rounds", rounds):
                 taken += [sample(place, time * factor, k, step, **rest) for step, factor in ((1, 0.9), (2, 1.1))]
-        rows += taken + ([closing(k, len(taken))] if close else [])
+        rows += taken + [closing(k, len(taken), environment=environments[0]["environment"])]
     return rows
 
 

@@ -1,0 +1,179 @@
+"""Comparisons, ladders and answers of rows with known effects."""
+import made
+import numpy as np
+import pytest
+
+import pairsum_results as pr
+
+
+@pytest.fixture
+def report(tmp_path):
+    """The report of made rows."""
+    def of(points, **how):
+        return pr.report(pr.load([made.write(tmp_path / "talk/rows.jsonl", made.study(points, **how))]))
+    return of
+
+
+def only(table, **where):
+    found = table[(table[list(where)] == list(where.values())).all(axis=1)] if where else table
+    assert len(found) == 1, found
+    return found.iloc[0]
+
+
+def test_every_comparison_finds_the_factor_that_was_put_in(report):
+    r = report(made.talk(), before=[made.environment(), made.peak(1, 1e9, 1e10), made.peak(2, 1.8e9, 1.5e10)])
+    two = only(r.speedup, backend="naive_omp", threads=2)
+    assert (two["ratio"], two["low"], two["high"]) == pytest.approx((2, 2, 2)) and two["verdict"] == "faster"
+    assert (two["efficiency"], two["machine_flops_scaling"], two["rounds"]) == (pytest.approx(1), pytest.approx(1.8), 6)
+    assert (two["time_s"], two["base_time_s"]) == pytest.approx((0.5 * made.MEDIAN, made.MEDIAN))
+    assert only(r.speedup, backend="naive_omp", threads=1)["verdict"] == "not resolved"  # the base itself
+    assert set(r.speedup["backend"]) == {"naive_omp", "naive_tbb", "symmetric_omp", "symmetric_tbb"}
+    assert only(r.algorithm_speedup, runtime="omp", threads=2)["ratio"] == pytest.approx(2)
+    assert only(r.algorithm_speedup, runtime="serial", M=6, base_M=7)["ratio"] == pytest.approx(1.8)
+    assert len(r.algorithm_speedup) == 3 + 4
+    for e in r.runtime_comparison.itertuples():
+        assert e.ratio == pytest.approx(0.8) and e.verdict == "slower" and e.base_backend == f"{e.algorithm}_omp"
+    naive = only(r.m_comparison, backend="naive", M=6)
+    assert (naive["best_M"], naive["over_best"], naive["verdict"]) == (7, pytest.approx(1 / 0.9), "slower")
+    assert (naive["collision_share"], naive["useful_pair_ratio"]) == (0.25, 0.25)
+
+
+def test_a_difference_in_the_scatter_is_not_resolved(report):
+    a, b = (0.3, -0.3, 0.2, -0.2, 0.1, -0.1), (-0.2, 0.3, -0.1, 0.1, -0.3, 0.2)
+    r = report([(made.point("naive"), 1.0, made.scattered(*a)), (made.point("symmetric"), 0.95, made.scattered(*b))])
+    e = only(r.algorithm_speedup)
+    assert e["ratio"] == pytest.approx(1 / 0.95) and e["low"] < 1 < e["high"] and e["verdict"] == "not resolved"
+
+
+def test_the_machines_own_pace_is_set_against_speedups(report):
+    paces = [made.pace(k, threads, flops / made.DISTURBANCE[k - 1]) for k in range(1, 7) for threads, flops in ((1, 1e9),
+                                                                                                              (2, 1.6e9))]
+    r = report([(made.point("naive_omp", 6, n), 1.0 / n) for n in (1, 2)], before=[made.environment(), *paces])
+    two = only(r.speedup, threads=2)
+    assert (two["machine_speedup"], two["of_machine"]) == pytest.approx((1.6, 2 / 1.6))
+    assert two["machine_speedup_low"] == pytest.approx(1.6) and two["machine_rounds"] == 6
+
+
+def test_points_of_different_rounds_are_compared_unpaired_and_said_to_be(report):
+    early, late = ({"rounds": 3},), (lambda k: {"rounds": 9 if k > 3 else 0},)
+    r = report([(made.point("naive"), 1.0, *early), (made.point("symmetric"), 0.5, *late)])
+    e = only(r.algorithm_speedup)
+    assert e["rounds"] == 0 and e["low"] < e["ratio"] < e["high"]
+    assert any("were measured in different rounds: their ratio is not paired" in c for c in r.caveats)
+
+
+def test_backends_are_compared_with_their_best_granularity(report):
+    r = report([(made.point("naive_omp", 6, 2), 1.0), (made.point("symmetric_omp", 6, 2), 0.5),
+                (made.point("symmetric_omp", 6, 2, granularity="dynamic:1"), 0.9)])
+    assert only(r.algorithm_speedup)["ratio"] == pytest.approx(2)
+
+
+def test_caveats_say_what_weakens_the_numbers(report):
+    r = report([(made.point("naive_omp", 6, 4), 1.0, {"lost": 3, "threads_worked": 2})], rounds=5)
+    for text in ("more threads than cores: naive_omp M=6 threads=4", "particles were lost in a step: naive_omp M=6",
+                 "fewer threads worked than were asked for: naive_omp", "fewer than 6 rounds, so no interval of the median",
+                 "no speedup over 1 thread, which was not measured: naive_omp M=6 threads=4"):
+        assert any(c.startswith(text) for c in r.caveats), text
+    assert np.isnan(r.points["sum_s_low"][0]) and r.points["sum_s"][0] == pytest.approx(1.0)
+    loose = report([(made.point("naive"), 1.0)], before=[made.environment(dirty=True, binding="none: EPERM")])
+    assert loose.caveats[:2] == ["built from a tree with uncommitted changes", "threads were not pinned (none: EPERM)"]
+
+
+def strategies(dim=3, slow=1.0):
+    """Strategies on 1 and 2 threads; locks cost 1.6 times the serial sweep and scale badly."""
+    places = [("naive_omp", 1.0, 2.0), ("sphysics_sweep", 0.5, None), ("symmetric_omp", 0.5, 1.9), ("locks_omp", 0.8, 1.2),
+              ("copies_omp", 0.55, 1.8)]
+    found = []
+    for name, time, scaling in places:
+        for threads in (1, 2):
+            if threads == 1 or scaling:
+                memory = 500 + (2e8 if name == "copies_omp" else 0)
+                factor = slow if name == "locks_omp" else 1
+                found.append((made.point(name, 6, threads, dim=dim), factor * time / (scaling if threads == 2 else 1),
+                              {"workspace_bytes": int(memory)}))
+    return found
+
+
+def test_a_ladder_has_every_strategy_at_its_best(report):
+    r = report([*strategies(), (made.point("symmetric_omp", 7, 2), 0.9)])
+    top = r.ladder[r.ladder["at"] == "most_threads"]
+    assert top["backend"].to_list() == ["symmetric_omp", "copies_omp", "naive_omp", "sphysics_sweep", "locks_omp"]
+    assert top["rank"].to_list() == [1, 2, 3, 4, 5] and set(top["base_backend"]) == {"naive_omp"}
+    locks = only(top, backend="locks_omp")
+    assert (locks["ratio"], locks["efficiency"]) == pytest.approx((0.5 / (0.8 / 1.2), 0.6)) and locks["verdict"] == "slower"
+    assert locks["time_s"] == pytest.approx(1.5 * made.MEDIAN * 0.8 / 1.2)  # prepare, zero, sum and reduce
+    one = only(r.ladder[r.ladder["at"] == "one_thread"], backend="locks_omp")
+    assert one["over_serial"] == pytest.approx(1.6) and np.isnan(one["efficiency"])
+    assert only(top, backend="copies_omp")["extra_bytes_per_particle"] == pytest.approx(200)
+    assert len(r.over_threads) == 9 and only(r.over_threads, backend="locks_omp", threads=2)["ratio"] == pytest.approx(1.5)
+    said = r.strategies.set_index("backend")
+    assert said.loc["locks_omp", ["conflicts", "runtime", "symmetric"]].to_list() == ["locks", "omp", True]
+    assert said["breaks_down"]["locks_omp"] == ("1 thread: 1.60 [1.60, 1.60] times the serial sweep (dam_break 3D); "
+                                                "2 threads: efficiency 0.60 [0.60, 0.60] (dam_break 3D)")
+    assert said["breaks_down"]["copies_omp"].startswith("memory: 200 bytes a particle more than the leanest, on 1 thread")
+    assert said["breaks_down"].isna()["symmetric_omp"]
+
+
+def test_a_ladder_needs_a_base_and_two_more(report):
+    assert report([p for p in strategies() if p[0]["backend"] != "naive_omp"]).ladder.empty
+    assert report([p for p in strategies() if p[0]["backend"] in ("naive_omp", "locks_omp")]).ladder.empty
+
+
+def test_a_strategy_that_fares_worse_in_another_world_is_named(report):
+    r = report([*strategies(), *strategies(2, 1.5)])
+    locks = only(r.shifts, backend="locks_omp")
+    assert (locks["what"], locks["world"], locks["base_world"]) == ("dimension", "dam_break 2D", "dam_break 3D")
+    assert locks["ratio"] == pytest.approx(1 / 1.5) and locks["verdict"] == "slower"
+    assert only(r.shifts, backend="symmetric_omp")["verdict"] == "not resolved"
+    assert "dam_break 2D: against naive_omp 1.50 [1.50, 1.50] times as slow as in dam_break 3D; rank 5 of 5 after 5 of 5" in \
+        r.strategies.set_index("backend")["breaks_down"]["locks_omp"]
+
+
+def test_the_answer_is_the_fastest_step_of_the_largest_problem(report):
+    r = report([*made.talk(), (made.point("symmetric_omp", 7, 2), 0.251, made.scattered(.05, -.05, .03, -.03, .04, -.04)),
+                (made.point("symmetric_omp", 6, 2, n_fluid=10), 1e-6)])
+    best = r.points.loc[r.answer.point]
+    assert (best["backend"], best["M"], best["threads"], best["n_fluid"]) == ("symmetric_omp", 6, 2, 1000000)
+    assert r.points.loc[r.answer.base, ["backend", "threads"]].to_list() == ["naive_omp", 2]
+    assert [r.points["M"][k] for k in r.answer.ties] == [7] and r.answer.ratio["ratio"] == pytest.approx(2)
+    assert r.answer.text == ("On node take symmetric_omp with M = 6 and 2 threads: 2.00 times [2.00, 2.00] as fast as "
+                             "naive_omp with M = 6 and 2 threads.")
+    assert "takes 525.00 ms" in r.answer.details and "No difference was resolved from symmetric_omp with M = 7" in \
+        r.answer.details
+
+
+def test_the_questions_are_answered_as_far_as_they_were_measured(report):
+    r = report(made.talk(), before=[made.environment(), made.peak(2, 1e10, 1e9)])
+    asked = {q["question"]: q["answer"] for q in r.questions}
+    assert asked["Is the symmetric sum twice as fast here?"].startswith("Yes, on 2 threads: OpenMP naive M = 6 over symmetric")
+    assert asked["Does it scale as well?"].startswith("On 2 threads gathers are 2.00 times as fast as on one, symmetric sums")
+    assert "symmetric M = 6 (1050.0 ms a step; M = 7 takes 1.20 times as long)" in asked["Which M for which algorithm, and why?"]
+    assert asked["OpenMP or oneTBB?"].startswith("Of 4 comparisons oneTBB is faster in 0, OpenMP in 4")
+    # 1e9 flops at 1e10 per s, 1e8 bytes at 1e9 per s: 100 ms, of symmetric_omp's 262.5 ms.
+    assert "symmetric_omp with M = 6 and 2 threads: its arithmetic could not be done in less than 100.00 ms, and that is 38.1" \
+        in asked["How far is that from what the machine can do?"]
+    assert r.points["limited_by"].dropna().eq("flops").all() and r.points["share_of_bound"].notna().sum() == 4
+    assert not report([(made.point("naive"), 1.0)]).questions
+
+
+def test_what_is_known_of_self_test_backends_is_held_against_the_numbers(report):
+    noise = made.scattered(.01, -.01, .02, -.02, .015, -.015)
+    corrupt = {"error": "rate 7 is off", "phases": None, "work": None}
+    points = [(made.point("symmetric_omp"), 1.0), (made.point("again_symmetric_omp"), 1.0, noise),
+              (made.point("slowed_20_symmetric_omp"), 1.3, noise), (made.point("corrupt_symmetric_omp"), 1.0, corrupt)]
+    r = report(points)
+    again, slowed, wrong = (only(r.self_test, backend=f"{name}_symmetric_omp") for name in ("again", "slowed_20", "corrupt"))
+    assert again["holds"] and again["expected"] == 1 and again["confidence"] == pytest.approx(1 - 0.05 / 2)
+    assert not slowed["holds"] and "1.2 expected: OUTSIDE the interval, told from its base" in slowed["text"]
+    assert wrong["holds"] and wrong["text"] == "refused, as it must be: rate 7 is off"
+    assert any(c.startswith("self-test slowed_20_symmetric_omp M=6 threads=1 does not hold") for c in r.caveats)
+    assert r.points.loc[r.answer.point, "backend"] == "symmetric_omp"  # a copy is no answer
+    timed = report([*points[:1], (made.point("corrupt_symmetric_omp"), 1.0)])
+    assert only(timed.self_test)["text"] == "it got a time, although it is wrong"
+
+
+def test_a_backend_that_no_build_here_knows_is_reported_with_what_it_says(report):
+    r = report([*strategies(), (made.point("martian_omp", 6, 2), 0.2)])
+    martian = r.strategies.set_index("backend").loc["martian_omp"]
+    assert martian[["conflicts", "runtime", "description"]].to_list() == ["other", "omp", "martian_omp in one line"]
+    assert only(r.ladder[r.ladder["at"] == "most_threads"], backend="martian_omp")["rank"] == 1
