@@ -11,7 +11,7 @@ from .compare import (algorithm_speedup, compared, compiler_comparison, m_compar
                       speedup)
 from .ladders import ladder, over_threads, shifts, strategies  # noqa: F401
 from .load import COMMON, EVALUATION, PLACE, POINT, TIMES, Results, load  # noqa: F401
-from .model import models, shares  # noqa: F401
+from .model import models, shares, thread_times  # noqa: F401
 from .reports import Report, report  # noqa: F401
 from .rows import PHASES, ResultsError  # noqa: F401
 from .self_tests import self_test  # noqa: F401

@@ -22,9 +22,10 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _report_program(programs) -> None:
-    program = programs.add_parser("report", help="tables and summary.json from rows files", description="Tables (text, "
-                                  "Markdown, CSV) and summary.json from rows files. Rows that failed their verification "
-                                  "never enter a table, nor do rounds that were cut.")
+    program = programs.add_parser(
+        "report", help="tables and summary.json from rows files", description="Tables (text, Markdown, CSV) and "
+        "summary.json from rows files. Rows that failed their verification never enter a table, nor do rounds that "
+        "were cut.")
     program.add_argument("inputs", nargs="+", metavar="FILE", help="rows files, or folders of them")
     program.add_argument("--out", metavar="DIR", type=pathlib.Path,
                          help="folder for the files (default: named like the rows file, beside it)")
@@ -44,10 +45,11 @@ def _report(options: argparse.Namespace) -> None:
 
 def _compare_program(programs) -> None:
     program = programs.add_parser(
-        "compare", help="is B faster than A, by how much, and how sure is that?", description="Is B faster than A, by how "
-        "much, and how sure is that? A and B are two backends, with words like precision=mixed for what else may differ, "
-        "two rows files (or folders), or two git revisions that rows were measured with.", epilog='example: pairsum '
-        'compare "symmetric_omp precision=double" "tiles_omp precision=mixed" --in results/vector')
+        "compare", help="is B faster than A, by how much, and how sure is that?", description="Is B faster than A, by "
+        "how much, and how sure is that? A and B are two backends, with words like precision=mixed for what else may "
+        "differ, two rows files (or folders), or two git revisions that rows were measured with.",
+        epilog='example: pairsum compare "symmetric_omp precision=double" "tiles_omp precision=mixed" --in '
+        'results/vector')
     program.add_argument("a", metavar="A", help="the base")
     program.add_argument("b", metavar="B", help="what is compared with it")
     program.add_argument("--in", dest="inputs", nargs="+", metavar="FILE", default=["results"],

@@ -54,8 +54,9 @@ def answer(results: Results) -> Answer | None:
         bounds = words.bounded(ratio["ratio"], ratio["low"], ratio["high"])
         value, _, interval = bounds.partition(" ")
         text += f": {value} times {interval or '(no interval: too few rounds)'} as fast as {said[base]}"
-    details = (f"On {where['host']} ({where['cpu']}, {where['cores']} cores) a whole step of {p['n_fluid']} fluid particles "
-               f"(dx {p['dx']:.10g}, {p['state']}, {p['precision']}, {p['interaction']}) takes {words.ms(p['time'])} ms")
+    details = (f"On {where['host']} ({where['cpu']}, {where['cores']} cores) a whole step of {p['n_fluid']} fluid "
+               f"particles (dx {p['dx']:.10g}, {p['state']}, {p['precision']}, {p['interaction']}) takes "
+               f"{words.ms(p['time'])} ms")
     if naive.empty:
         details += "; no naive backend was measured beside it."
     elif base == best:
@@ -74,7 +75,8 @@ def _choices(points: pd.DataFrame) -> pd.Series:
         cells = "" if np.isnan(p.M) else f" with M = {p.M:.0f}"
         return f"{name}{grid}{cells} and {words.threads_words(p.threads)}"
 
-    return pd.Series([words_of(name, p) for name, p in zip(words.names(points, False), points.itertuples())], points.index)
+    named = zip(words.names(points, False), points.itertuples())
+    return pd.Series([words_of(name, p) for name, p in named], points.index)
 
 
 def questions(results: Results, series: int, tables: dict[str, pd.DataFrame]) -> list[dict[str, str]]:
@@ -130,9 +132,9 @@ def _twice(table: pd.DataFrame) -> str:
              for _, e in table.iterrows()]
     reach = table["high"].fillna(table["ratio"])
     yes = bool((reach >= 2).all())
-    verdict = "Yes" if yes else "No, it is not faster" if not (reach > 1).any() else f"No, {_range(table['ratio'])} times"
-    return (f"{verdict}, on {words.threads_words(table['threads'].iloc[0])}: {', '.join(texts)}. Each pair is computed once "
-            "instead of twice, but its distance is tested and both particles are written"
+    faster = f"No, {_range(table['ratio'])} times" if (reach > 1).any() else "No, it is not faster"
+    return (f"{'Yes' if yes else faster}, on {words.threads_words(table['threads'].iloc[0])}: {', '.join(texts)}. Each "
+            "pair is computed once instead of twice, but its distance is tested and both particles are written"
             + ("." if yes else ", so half the evaluations is not half the time."))
 
 
@@ -153,9 +155,9 @@ def _scaling(results: Results, table: pd.DataFrame, points: pd.DataFrame) -> str
         return ""
     name = [f"{e['backend']} {_cells(e)}{e['variant']}: " for _, e in table.iterrows()]
     said = name + table.apply(_with_bounds, axis=1)
-    text = (f"On {words.threads_words(table['threads'].iloc[0])} gathers are {_range(table['ratio'][symmetric.eq(False)])} "
-            f"times as fast as on one, symmetric sums {_range(table['ratio'][symmetric.eq(True)])} times "
-            f"({_spread(table['ratio'], said)}).")
+    gathers, sums = (_range(table["ratio"][symmetric.eq(kind)]) for kind in (False, True))
+    text = (f"On {words.threads_words(table['threads'].iloc[0])} gathers are {gathers} times as fast as on one, "
+            f"symmetric sums {sums} times ({_spread(table['ratio'], said)}).")
     known = table["of_machine"].notna()
     machine = table["machine_flops_scaling"].iloc[-1]
     if known.any():
@@ -195,13 +197,13 @@ def _which_m(results: Results, table: pd.DataFrame) -> str:
         kind = one["backend"].split("_")[0]
         if kind in ("naive", "symmetric"):
             known = over_m.dropna(subset=["collision_share", "cells_nonempty"])
-            work.setdefault(kind, ", ".join(f"M = {e.M:.0f}: {100 * e.collision_share:.0f} % in {e.cells_nonempty:.0f} cells"
-                                            for e in known.itertuples()))
-    why = "".join(f" {label}: {work[kind]}." for kind, label in (("naive", "Of the gather"),
-                                                                 ("symmetric", "Of the symmetric sums")) if work.get(kind))
-    return (f"{', '.join(texts)}. A smaller M folds more cells together, and distances are tested in vain. A larger one "
-            "costs nothing in the sweep, because only cells that hold particles are visited; what it costs is in the index, "
-            "whose table has 2^(dM) entries."
+            work.setdefault(kind, ", ".join(f"M = {e.M:.0f}: {100 * e.collision_share:.0f} % in "
+                                            f"{e.cells_nonempty:.0f} cells" for e in known.itertuples()))
+    kinds = {"naive": "Of the gather", "symmetric": "Of the symmetric sums"}
+    why = "".join(f" {label}: {work[kind]}." for kind, label in kinds.items() if work.get(kind))
+    return (f"{', '.join(texts)}. A smaller M folds more cells together, and distances are tested in vain. A larger "
+            "one costs nothing in the sweep, because only cells that hold particles are visited; what it costs is in "
+            "the index, whose table has 2^(dM) entries."
             + (" Share of the distance tests in vain, and cells with particles:" + why if why else ""))
 
 
@@ -209,9 +211,9 @@ def _runtime(table: pd.DataFrame) -> str:
     if table.empty:
         return ""
     count = table["verdict"].value_counts()
-    return (f"Of {len(table)} comparisons oneTBB is faster in {count.get('faster', 0)}, OpenMP in {count.get('slower', 0)}, "
-            f"no difference is resolved in {count.get('not resolved', 0)}; OpenMP's time is {table['ratio'].min():.3f} to "
-            f"{table['ratio'].max():.3f} of oneTBB's.")
+    return (f"Of {len(table)} comparisons oneTBB is faster in {count.get('faster', 0)}, OpenMP in "
+            f"{count.get('slower', 0)}, no difference is resolved in {count.get('not resolved', 0)}; OpenMP's time is "
+            f"{table['ratio'].min():.3f} to {table['ratio'].max():.3f} of oneTBB's.")
 
 
 def _bound(points: pd.DataFrame) -> str:
@@ -220,6 +222,6 @@ def _bound(points: pd.DataFrame) -> str:
         return ""
     p = known.loc[known["share_of_bound"].idxmax()]
     return (f"The nearest is {p['backend']} {'' if pd.isna(p['M']) else 'with '}{_cells(p)} and "
-            f"{words.threads_words(p['threads'])}: its {'arithmetic' if p['limited_by'] == 'flops' else 'memory traffic'} "
-            f"could not be done in less than {words.ms(p['bound_s'])} ms, and that is {100 * p['share_of_bound']:.1f} % of "
-            "the time it takes.")
+            f"{words.threads_words(p['threads'])}: its "
+            f"{'arithmetic' if p['limited_by'] == 'flops' else 'memory traffic'} could not be done in less than "
+            f"{words.ms(p['bound_s'])} ms, and that is {100 * p['share_of_bound']:.1f} % of the time it takes.")

@@ -2,8 +2,9 @@
 
 Every table has the columns `series`, `point` and `base` (rows of Results.points), the point's PLACE and the same of the
 base (`base_backend`, ...), `time_s` and `base_time_s`, and `ratio` = time of the base over that of the point (above 1
-the point is faster) with `low`, `high` (95 %), `rounds` that pair them (0: not paired) and, over the whole table (Holm),
-`verdict`: what the point is against its base. Times are those of the summation, `sum_s`, unless it is said otherwise.
+the point is faster) with `low`, `high` (95 %), `rounds` that pair them (0: not paired) and, over the whole table
+(Holm), `verdict`: what the point is against its base. Times are those of the summation, `sum_s`, unless it is said
+otherwise.
 """
 import numpy as np
 import pandas as pd
@@ -49,8 +50,8 @@ def labels(results: Results) -> pd.Series:
     words = pd.Series([place_words(p) for p in points.itertuples()], points.index, dtype=object)
     if len(results.series) < 2:
         return words
-    return words + [f" ({p.case}, {p.state}, dx {p.dx:.10g}, {p.order}, {p.precision}, {p.interaction}, {p.smoothing}, "
-                    f"{p.integrator}, study {p.study})" for p in points.itertuples()]
+    return words + [f" ({p.case}, {p.state}, dx {p.dx:.10g}, {p.order}, {p.precision}, {p.interaction}, "
+                    f"{p.smoothing}, {p.integrator}, study {p.study})" for p in points.itertuples()]
 
 
 def first_few(texts: list[str], most: int = 3) -> str:
@@ -60,8 +61,8 @@ def first_few(texts: list[str], most: int = 3) -> str:
 
 def speedup(results: Results) -> pd.DataFrame:
     """Every point against itself on one thread, with `efficiency` (the ratio per thread); the machine's own scaling by
-    its peaks (`machine_flops_scaling`, `machine_bandwidth_scaling`); and, as medians over rounds with `_low`, `_high` and
-    `_rounds`, how many times as many multiply-adds it made in the same rounds (`machine_speedup`) and what part of that
+    its peaks (`machine_flops_scaling`, `machine_bandwidth_scaling`); and, as medians over rounds with `_low` and
+    `_high`, how many times as many multiply-adds it made in the same rounds (`machine_speedup`) and what part of that
     the sums reach (`of_machine`)."""
     points, alike, timed = results.points, results.alike("threads"), results.times().notna()
     several = points.groupby(alike)["threads"].transform("nunique") > 1
@@ -70,9 +71,9 @@ def speedup(results: Results) -> pd.DataFrame:
     own = points.index[timed & base.notna() & ((points["threads"] > 1) | several)]
     table = compared(results, base[own], own)
     table["efficiency"] = table["ratio"] / table["threads"]
-    for rate, column in (("flops_per_s", "machine_flops_scaling"), ("bandwidth_bytes_per_s", "machine_bandwidth_scaling")):
-        peak = peaks_of(results)[rate]
-        table[column] = peak.reindex(table["point"]).to_numpy() / peak.reindex(table["base"]).to_numpy()
+    peaks = peaks_of(results)[["flops_per_s", "bandwidth_bytes_per_s"]]
+    table[["machine_flops_scaling", "machine_bandwidth_scaling"]] = (
+        peaks.reindex(table["point"]).to_numpy() / peaks.reindex(table["base"]).to_numpy())
     return table.join(_against_machine(results, table))
 
 
@@ -86,8 +87,8 @@ def without_base(results: Results) -> list[str]:
 
 
 def _against_machine(results: Results, table: pd.DataFrame) -> pd.DataFrame:
-    """(t_base f_base)/(t_own f_own) of each round, and f_own/f_base. Medians, because what disturbs a round hits the two
-    differently: threads that share a core for a while halve the multiply-adds and may leave a sum as it was."""
+    """(t_base f_base)/(t_own f_own) of each round, and f_own/f_base. Medians, because what disturbs a round hits the
+    two differently: threads that share a core for a while halve the multiply-adds and may leave a sum as it was."""
     keys = ["file", "round", "study", "build", "threads", "precision"]
     rounds = results.rounds.merge(results.paces, on=keys, how="left")
     own = rounds[["point", "file", "round", "sum_s", "flops_per_s"]]
@@ -101,8 +102,8 @@ def _against_machine(results: Results, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def algorithm_speedup(results: Results) -> pd.DataFrame:
-    """naive over symmetric on as many threads: each M with itself, and naive at M = 7 over symmetric at M = 6; each with
-    its best granularity. `runtime`: "serial", "omp" or "tbb"."""
+    """naive over symmetric on as many threads: each M with itself, and naive at M = 7 over symmetric at M = 6; each
+    with its best granularity. `runtime`: "serial", "omp" or "tbb"."""
     points = results.points[best(results, "granularity") == results.points.index].reset_index()
     same = ["series", "grid", "threads", "isa", "block"]
     columns = ["point", "M", "backend", *same]
@@ -135,7 +136,7 @@ def compiler_comparison(results: Results) -> pd.DataFrame:
     pairs = points[points["build"] == 0].merge(points[points["build"] > 0], on=same, suffixes=("_base", ""))
     pairs = pairs.sort_values(["point_base", "point"])
     names = results.series["build_name"]
-    build, base = (results.points["series"].map(names).reindex(pairs[ids]).to_numpy() for ids in ("point", "point_base"))
+    build, base = (results.points["series"].map(names).reindex(pairs[of]).to_numpy() for of in ("point", "point_base"))
     return compared(results, pairs["point_base"], pairs["point"]).assign(build=build, base_build=base)
 
 

@@ -117,8 +117,8 @@ def worlds(results: Results) -> pd.Series:
 
 
 def shifts(results: Results, ladders: pd.DataFrame) -> pd.DataFrame:
-    """How each backend stands to the base in one series (`base_standing` there), over how it stands in this one: `ratio`
-    above 1 if it fares better here. The two differ in `what`: "sparsity" (fewer neighbours in a domain wider in H),
+    """How each backend stands to the base in one series, over how it stands in this one: `ratio` above 1 if it fares
+    better here. The two differ in `what`: "sparsity" (fewer neighbours in a domain wider in H),
     "dimension" or "case". Standings are times over the base's in the same rounds, so that a machine that changes
     between the series cancels; they are compared unpaired (Welch). `rank` `of` here, `base_rank` `base_of` there."""
     highest = ladders[(ladders["at"] == "most_threads") | ~ladders["series"].isin(
@@ -135,7 +135,7 @@ def shifts(results: Results, ladders: pd.DataFrame) -> pd.DataFrame:
                     columns={"base_base": "base_of_base"}), on="backend").assign(what=what))
     if not parts:
         return pd.DataFrame(columns=[*kept, "base_series", "base_world", "what", "base_rank", "base_of", "ratio", "low",
-                                     "high", "verdict"])
+                                     "high", "rounds", "base_rounds", "verdict"])
     table, logs = pd.concat(parts, ignore_index=True), results.logs(EVALUATION)
     now, then = (pd.DataFrame(logs[table[own]].to_numpy() - logs[table[base]].to_numpy(), logs.index)
                  for own, base in (("point", "base"), ("base_point", "base_of_base")))
@@ -183,14 +183,15 @@ def _breakdowns(own: pd.DataFrame, shifted: pd.DataFrame) -> list[str]:
         return own.loc[excess.idxmax()] if (excess > 0).any() else None
 
     if (e := worst(own["over_serial_low"] / 1.5 - 1)) is not None:
-        found.append(f"1 thread: {e.over_serial:.2f} [{e.over_serial_low:.2f}, {e.over_serial_high:.2f}] times the serial "
-                     f"sweep ({e.world})")
+        found.append(f"1 thread: {e.over_serial:.2f} [{e.over_serial_low:.2f}, {e.over_serial_high:.2f}] times the "
+                     f"serial sweep ({e.world})")
     if (e := worst(0.75 / own["efficiency_high"] - 1)) is not None:
         found.append(f"{e.threads} threads: efficiency {e.efficiency:.2f} [{e.efficiency_low:.2f}, "
                      f"{e.efficiency_high:.2f}] ({e.world})")
-    worse = shifted[(shifted["verdict"] == "slower") & shifted["low"].notna() & (1 / shifted["ratio"].astype(float) >= 1.25)]
-    found += [f"{e.world}: against {e.base_backend} {1 / e.ratio:.2f} [{1 / e.high:.2f}, {1 / e.low:.2f}] times as slow as "
-              f"in {e.base_world}; rank {e.rank} of {e.of} after {e.base_rank} of {e.base_of}" for e in worse.itertuples()]
+    worse = shifted[(shifted["verdict"] == "slower") & (1 / shifted["ratio"].astype(float) >= 1.25)]
+    found += [f"{e.world}: against {e.base_backend} {1 / e.ratio:.2f} [{1 / e.high:.2f}, {1 / e.low:.2f}] times as "
+              f"slow as in {e.base_world}; rank {e.rank} of {e.of} after {e.base_rank} of {e.base_of}"
+              for e in worse.itertuples()]
     if (e := worst(own["extra_bytes_per_particle"] / 100 - 1)) is not None:
         found.append(f"memory: {e.extra_bytes_per_particle:.0f} bytes a particle more than the leanest, on {e.threads} "
                      f"thread{'' if e.threads == 1 else 's'} ({e.world})")

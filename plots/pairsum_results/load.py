@@ -1,12 +1,11 @@
 """Rows to tidy tables: which rows count, which points they are of, and which points may be compared."""
 import dataclasses
-import json
 from typing import Iterable
 
 import numpy as np
 import pandas as pd
 
-from . import stats
+from . import builds, stats
 from .rows import PHASES, ResultsError, read
 
 #: The columns that tell points apart, in the order in which points are listed.
@@ -22,7 +21,6 @@ WORK = ["cells", "cells_nonempty", "sumF1", "sumF2", "pairs_tested", "pairs_inte
         "pairs_fluid_boundary", "pairs_tested_unfolded", "flops", "bytes", "vector_units.block", "vector_units.lanes",
         "vector_units.vectors", "vector_units.occupancy"]
 _COUNTERS = ["cycles", "instructions", "cache_misses"]
-_BUILD = ["host", "cpu", "compiler", "flags", "git", "dirty", "binding"]
 
 
 @dataclasses.dataclass
@@ -30,7 +28,7 @@ class Results:
     """The rows of some files. Times in seconds; null (NaN) is what was not measured or what rows of that time lack.
 
     samples       a line per timed step of a finished round, the unverified too: the keys of the row (design.md, section
-                  3), `point` (-1 if no round of it counts), `series`, `build`
+                  3), `point` (-1 if no round of it counts), `series`, `build`; `counts`: its round is counted
     rounds        a line per point and round: means of its phases over repetitions and steps, `evaluation_s` (prepare,
                   zero, sum and reduce together), what the point is, and `host`, `cpu`, `git`
     points        index `point`: what it is; of TIMES the medians over rounds (`sum_s`) with `sum_s_low`, `sum_s_high`,
@@ -89,14 +87,15 @@ def collect(rows: dict[str, pd.DataFrame], allow_mixed: bool = False) -> Results
     closed = _without_voids(rows["round"], rows["void"])
     samples, paces = (_of(closed, rows[kind]) for kind in ("sample", "pace"))
     if samples.empty:
-        raise ResultsError("there is no finished round in the rows; a study that was cut goes on when it is started again")
-    environments, builds = _builds(rows["environment"], samples)
-    samples = samples.merge(builds[["file", "environment", "build", "cores"]], on=["file", "environment"])
-    differ, together = differences(environments), _measured_together(samples)
+        raise ResultsError("there is no finished round in the rows; a study that was cut goes on when it is started "
+                           "again")
+    environments, of_files = builds.builds(rows["environment"], samples)
+    samples = samples.merge(of_files[["file", "environment", "build", "cores"]], on=["file", "environment"])
+    differ, together = builds.differences(environments), builds.measured_together(samples)
     if differ and not together and not allow_mixed:
         raise ResultsError(f"the rows come from different machines or builds: {differ}; report them apart, or with "
                            "--allow-mixed as series of their own")
-    caveats = _caveats(closed, environments, differ, together)
+    caveats = builds.caveats(closed, environments, differ, together)
     backends = _backends(rows["backend"], samples)
     samples = _with_points(samples)
     failed = _failed(samples)
@@ -108,7 +107,7 @@ def collect(rows: dict[str, pd.DataFrame], allow_mixed: bool = False) -> Results
               points.reindex(columns=["study", "build", "seed", *COMMON]))
     first = environments.drop_duplicates("build").set_index("build")
     series = series.join(first[["environment", "build_name"]], on="build")
-    rounds = rounds.merge(points[["study", "series", "build", *POINT]], left_on="point", right_index=True)
+    rounds = rounds.join(points[["study", "series", "build", *POINT]], on="point")
     rounds = rounds.join(first[["host", "cpu", "git"]], on="build").sort_values(["point", "file", "round"])
     peaks, paces = _peaks(rows["peak"], paces, environments)
     sources = list(dict.fromkeys(pd.concat([frame["source"] for frame in rows.values()])))
@@ -136,55 +135,9 @@ def _of(closed: pd.DataFrame, rows: pd.DataFrame) -> pd.DataFrame:
     return rows.merge(closed[["file", "study", "round"]].drop_duplicates(), on=["file", "study", "round"])
 
 
-def _builds(rows: pd.DataFrame, samples: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """The environments that samples name, each once, and the same for each file; with the number of their build."""
-    used = samples[["file", "environment"]].drop_duplicates()
-    found = used.merge(rows.drop_duplicates(["file", "environment"], keep="last"), on=["file", "environment"])
-    plugins = [json.dumps({k: v for k, v in sorted(one.items()) if k.startswith("plugin ")}) for one in found["libraries"]]
-    found["build"] = found.assign(plugins=plugins).groupby([*_BUILD, "plugins"], sort=False).ngroup()
-    found["revision"] = found["git"] + np.where(found["dirty"].astype(bool), " with uncommitted changes", "")
-    found["build_name"] = found["compiler"] + ", git " + found["revision"]
-    return found.drop_duplicates(["environment", "host", "git"]).reset_index(drop=True), found
-
-
-def differences(environments: pd.DataFrame) -> str:
-    """What differs between machines and builds, like "host (a, b), git (x, y)"."""
-    columns = {"host": "host", "cpu": "cpu", "compiler": "compiler", "flags": "flags", "git": "revision",
-               "binding": "binding"}
-    values = {name: sorted(set(environments[column])) for name, column in columns.items()}
-    return ", ".join(f"{name} ({', '.join(some)})" for name, some in values.items() if len(some) > 1)
-
-
-def _measured_together(samples: pd.DataFrame) -> bool:
-    """Are there several builds, and was every one measured in a round with the first?"""
-    in_round = samples.groupby(["file", "study", "round"])["build"].agg(set)
-    with_first = set().union(*(builds for builds in in_round if 0 in builds))
-    return samples["build"].nunique() > 1 and len(with_first) == samples["build"].nunique()
-
-
-def _caveats(closed: pd.DataFrame, environments: pd.DataFrame, differ: str, together: bool) -> list[str]:
-    found = []
-    for source, shares in closed.groupby("source", sort=False)["others_share"]:
-        disturbed = int((shares > 0.05).sum())
-        if disturbed:
-            found.append(f"{source.split('/')[-1]}: in {disturbed} of {len(shares)} rounds other processes used more than "
-                         "5 % of the machine")
-    if differ:
-        found.append(("the builds differ, which is what is compared: " if together else
-                      "rows of different machines or builds in one report: ") + differ)
-    if environments["dirty"].any():
-        found.append("built from a tree with uncommitted changes")
-    loose = environments.loc[environments["binding"].str.startswith("none"), "binding"]
-    if len(loose):
-        found.append(f"threads were not pinned ({loose.iloc[0]})")
-    if environments["governor"].fillna("unknown").nunique() > 1:
-        found.append("rows with different frequency governors")
-    return found
-
-
 def _backends(rows: pd.DataFrame, samples: pd.DataFrame) -> pd.DataFrame:
-    """What the measured backends say of themselves, by name: the last word of several. Rows of schema 2 say nothing, but
-    the names of self-test backends tell what they are."""
+    """What the measured backends say of themselves, by name: the last word of several. Rows of schema 2 say nothing,
+    but the names of self-test backends tell what they are."""
     said = rows.drop_duplicates("name", keep="last").set_index("name").drop(
         columns=["schema", "kind", "study", "utc", "environment", "file", "source"], errors="ignore")
     said = said.reindex(pd.Index(sorted(set(samples["backend"])), name="name"))
@@ -201,9 +154,9 @@ def _backends(rows: pd.DataFrame, samples: pd.DataFrame) -> pd.DataFrame:
 
 
 def _with_points(samples: pd.DataFrame) -> pd.DataFrame:
-    """Samples with "key", a number of their point in the order in which points are listed, ordered by it; "seed" is null
-    where the particles do not depend on it, and "isa" is scalar where one pair was summed at a time: rows used to name
-    that of the build."""
+    """Samples with "key", a number of their point in the order in which points are listed, ordered by it; "seed" is
+    null where the particles do not depend on it, and "isa" is scalar where one pair was summed at a time: rows used to
+    name that of the build."""
     samples["block"] = samples["block"].fillna("none")
     raw = samples.groupby(["file", *POINT], dropna=False, sort=False).ngroup()
     alone = samples["cells"].notna() & ~(samples["vector_units.lanes"] > 1)
@@ -269,12 +222,12 @@ def _peaks(peaks: pd.DataFrame, paces: pd.DataFrame,
            environments: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
     """The best of each environment, number of threads and precision, and the mean pace of each round."""
     like = ["environment", "threads", "precision"]
-    builds = environments.drop_duplicates("environment", keep="last").set_index("environment")["build"]
+    of_environment = environments.drop_duplicates("environment", keep="last").set_index("environment")["build"]
     rates = ["bandwidth_bytes_per_s", "flops_per_s"]
     best = peaks.groupby(like, sort=False)[rates].max().astype(float)
-    paces = paces.assign(build=paces["environment"].map(builds)).dropna(subset=["build"])
+    paces = paces.assign(build=paces["environment"].map(of_environment)).dropna(subset=["build"])
     reached = paces.groupby(like)["flops_per_s"].max().reindex(best.index)
     best["flops_per_s"] = np.fmax(best["flops_per_s"], reached.astype(float))
-    paces = paces.groupby(["file", "round", "study", "build", "threads", "precision"])["flops_per_s"].mean().reset_index()
+    paces = paces.groupby(["file", "round", "study", "build", "threads", "precision"])["flops_per_s"].mean()
     best = best.reset_index()
-    return best.assign(build=best["environment"].map(builds)), paces
+    return best.assign(build=best["environment"].map(of_environment)), paces.reset_index()

@@ -1,4 +1,7 @@
-"""What the work of a point says: time per pair, shares of its distance tests, and the least time the machine allows."""
+"""What the work of a point says: time per pair, shares of its distance tests, the least time the machine allows,
+and what each thread did."""
+import itertools
+
 import numpy as np
 import pandas as pd
 
@@ -24,8 +27,8 @@ def shares(results: Results) -> pd.DataFrame:
 
 
 def models(results: Results) -> pd.DataFrame:
-    """The bound of every point's summation (docs/model.md), by the `flops` and `bytes` that its rows state and the peaks
-    of the machine: `bound_s`, `limited_by` ("flops" or "bandwidth"), `share_of_bound` (of the time it takes),
+    """The bound of every point's summation (docs/model.md), by the `flops` and `bytes` that its rows state and the
+    peaks of the machine: `bound_s`, `limited_by` ("flops" or "bandwidth"), `share_of_bound` (of the time it takes),
     `achieved_flops_per_s`, `intensity` (flops per byte); `ns_per_pair` of the summation alone. Null where rows of that
     time do not state the work of the model."""
     points, peaks, time = results.points, peaks_of(results), results.times()
@@ -34,6 +37,19 @@ def models(results: Results) -> pd.DataFrame:
     limit = pd.Series(np.where(arithmetic >= traffic, "flops", "bandwidth"), points.index, dtype=object)
     pairs = points["pairs_interacting"].where(points["pairs_interacting"] > 0)
     return pd.DataFrame({"ns_per_pair": 1e9 * points["sum_s"] / pairs, "intensity": points["flops"] / points["bytes"],
-                         "bound_s": bound, "limited_by": limit.where(bound.notna(), None), "share_of_bound": bound / time,
-                         "achieved_flops_per_s": points["flops"] / time,
+                         "bound_s": bound, "limited_by": limit.where(bound.notna(), None),
+                         "share_of_bound": bound / time, "achieved_flops_per_s": points["flops"] / time,
                          **peaks[["bandwidth_bytes_per_s", "flops_per_s"]]})
+
+
+def thread_times(results: Results) -> pd.DataFrame:
+    """`busy_s` and `waiting_s` (at barriers) of every `point` and `thread` in the passes of a summation together, means
+    over all steps; nothing of points without passes of several threads."""
+    names = {"threads_busy_s": "busy_s", "barrier_wait_s": "waiting_s"}
+    timed = results.samples[results.samples["counts"]].dropna(subset=list(names))
+    passes = {name: timed[row].map(lambda table: [sum(one) for one in itertools.zip_longest(*table, fillvalue=0)])
+              for row, name in names.items()}
+    table = pd.DataFrame({"point": timed["point"], **passes}).explode(list(names.values())).dropna()
+    thread = table.groupby(table.index).cumcount()
+    return table.groupby(["point", thread.rename("thread")])[list(names.values())].agg(
+        lambda values: values.astype(float).mean()).reset_index()

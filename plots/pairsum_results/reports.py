@@ -50,8 +50,8 @@ def report(results: Results) -> Report:
     studies, hosts = results.series["study"].unique(), results.environments["host"].unique()
     return Report(results, f"{', '.join(studies)} on {', '.join(hosts)}", points, **of_points, ladder=found,
                   over_threads=ladders.over_threads(results, found), shifts=shifted,
-                  strategies=ladders.strategies(results, found, shifted), self_test=tested, answer=said, questions=asked,
-                  caveats=_caveats(results, of_points, tested))
+                  strategies=ladders.strategies(results, found, shifted), self_test=tested, answer=said,
+                  questions=asked, caveats=_caveats(results, of_points, tested))
 
 
 def _caveats(results: Results, tables: dict[str, pd.DataFrame], tested: pd.DataFrame) -> list[str]:
@@ -59,7 +59,8 @@ def _caveats(results: Results, tables: dict[str, pd.DataFrame], tested: pd.DataF
     found = list(results.caveats)
     for what, which in (("more threads than cores", points["threads"] > points["cores"]),
                         ("particles were lost in a step", points["lost"] > 0),
-                        ("fewer threads worked than were asked for", points["threads_worked"] < points["threads"]),
+                        ("fewer threads worked in a step than were asked for",
+                         points["threads_worked"] < points["threads"]),
                         ("fewer than 6 rounds, so no interval of the median", points["rounds"] < 6)):
         if which.any():
             found.append(f"{what}: {compare.first_few(list(labels[which]))}")

@@ -119,8 +119,9 @@ class _Checked:
                 self.fault(at[wrong[0]], f'key "{prefix}{name}" should be {words}{" or null" if nullable else ""}, '
                                          f"is {describe(values[wrong[0]])}")
             elif kind.rstrip("?") in _NUMBERS and (nullable or not values):
-                values = np.array(values, dtype=float)  # null is NaN
-            columns[dotted + name] = pd.Series(values, at, dtype=object if isinstance(values, list) and not values else None)
+                columns[dotted + name] = pd.Series(values, at, dtype=float)  # null is NaN
+                continue
+            columns[dotted + name] = pd.Series(values, at, dtype=object if values == [] else None)
         return pd.concat([pd.DataFrame(columns, index=lines), *parts], axis=1)
 
     def _present(self, lines: list[int], objects: list[dict], name: str, prefix: str) -> tuple[list[int], list]:

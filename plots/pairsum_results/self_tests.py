@@ -14,9 +14,9 @@ def self_tests(results: Results) -> pd.DataFrame:
 
 
 def self_test(results: Results) -> pd.DataFrame:
-    """What the harness says of backends whose behaviour is known: `expected` and found `ratio` of their time over that of
-    the base, with an interval at 95 % over the whole table (Bonferroni); `holds`, and why in `text`. A copy should lie
-    within its interval, a calibrated delay too, and a corrupt backend should have no time."""
+    """What the harness says of backends whose behaviour is known: `expected` and found `ratio` of their time over that
+    of the base, with an interval at 95 % over the whole table (Bonferroni); `holds`, and why in `text`. A copy should
+    lie within its interval, a calibrated delay too, and a corrupt backend should have no time."""
     tests, place = self_tests(results), ["case", "state", "dx", *PLACE]
     points = results.points.reset_index()
     own = points[points["backend"].isin(tests.index)].join(tests, on="backend")

@@ -6,9 +6,10 @@ import numpy as np
 import pandas as pd
 
 from . import stats
+from .builds import differences
 from .compare import best
 from .ladders import made_for
-from .load import POINT, Results, cells_words, collect, differences, load, place_words
+from .load import POINT, Results, cells_words, collect, load, place_words
 from .rows import PHASES, ResultsError, read
 from .words import bounded, ms, text_table, wrapped
 
@@ -16,9 +17,9 @@ _LEVELS = ["state", "order", "precision", "interaction", "smoothing", "grid", "M
 
 
 def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_mixed: bool = False) -> str:
-    """A table and a sentence on every point that both sides have. Backends, with words like precision=mixed for what else
-    may differ, and revisions measured in the same rounds are paired by round; what was measured apart is not (Welch).
-    Raises ResultsError with one line for sides that are neither, or that must not be compared."""
+    """A table and a sentence on every point that both sides have. Backends, with words like precision=mixed for what
+    else may differ, and revisions measured in the same rounds are paired by round; what was measured apart is not
+    (Welch). Raises ResultsError with one line for sides that are neither, or that must not be compared."""
     phases = [name.removesuffix("_s") for name in PHASES]
     if phase not in phases:
         raise ResultsError(f'unknown phase "{phase}"; valid: {", ".join(phases)}')
@@ -26,8 +27,8 @@ def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_m
         raise ResultsError(f'a comparison needs two different things, not "{a}" twice')
     are_files = [pathlib.Path(side).exists() for side in (a, b)]
     if any(are_files) and not all(are_files):
-        raise ResultsError(f'"{a if are_files[0] else b}" is a file, "{b if are_files[0] else a}" is none; a comparison '
-                           "takes two backends, two rows files or two revisions")
+        raise ResultsError(f'"{a if are_files[0] else b}" is a file, "{b if are_files[0] else a}" is none; a '
+                           "comparison takes two backends, two rows files or two revisions")
     differ = ""
     if all(are_files):
         sides = [load([side]) for side in (a, b)]
@@ -76,9 +77,11 @@ def _are_backends(a: str, b: str, rows: dict[str, pd.DataFrame]) -> bool:
         return False
     for backend, other, revisions in ((a, b, of_b), (b, a, of_a)):
         if backend in backends and revisions:
-            raise ResultsError(f'"{backend}" is a backend, "{other}" a revision; a comparison takes two of the same kind')
-    raise ResultsError(f'"{b if a in backends or of_a else a}" is neither a backend nor a revision of these rows; there are '
-                       f'the backends {", ".join(sorted(backends))} and the revisions {", ".join(sorted(gits))}')
+            raise ResultsError(f'"{backend}" is a backend, "{other}" a revision; a comparison takes two of the same '
+                               "kind")
+    raise ResultsError(f'"{b if a in backends or of_a else a}" is neither a backend nor a revision of these rows; '
+                       f'there are the backends {", ".join(sorted(backends))} and the revisions '
+                       f'{", ".join(sorted(gits))}')
 
 
 def _of_revision(rows: dict[str, pd.DataFrame], word: str) -> dict[str, pd.DataFrame]:
@@ -124,7 +127,8 @@ def _backend_pairs(results: Results, a: tuple[str, dict[str, str]], b: tuple[str
                    phase: str) -> pd.DataFrame:
     """Points of two backends, each with its fastest granularity, that do the same but for the levels that are named."""
     fastest = best(results, "granularity", phase=phase) == results.points.index
-    points = results.points.assign(seed=results.points["seed"].astype(str), usual=made_for(results))[fastest].reset_index()
+    points = results.points.assign(seed=results.points["seed"].astype(str), usual=made_for(results))
+    points = points[fastest].reset_index()
     words = points[_LEVELS].assign(M=points["M"].map(lambda m: "none" if np.isnan(m) else f"{m:.0f}")).astype(str)
     free = {"backend", "granularity", "isa", "block", *a[1], *b[1]}
     free |= {"M"} if "grid" in free else set()
@@ -164,11 +168,12 @@ def _table(pairs: pd.DataFrame, sides: list[Results], phase: str) -> str:
     first, second = (list(side.points.loc[pairs[f"point_{name}"]].itertuples()) for side, name in zip(sides, "ab"))
     rare = len({(p.dx, _rare(p)) for p in first}) > len({p.dx for p in first})  # dx decides H
     verdicts = stats.verdicts(pairs)
-    lines = [[_place(p, q, "" if sides[0] is sides[1] else f"{p.backend} ", rare), f"{p.rounds}/{q.rounds}", ms(getattr(p, phase)), ms(getattr(q, phase)),
+    lines = [[_place(p, q, "" if sides[0] is sides[1] else f"{p.backend} ", rare), f"{p.rounds}/{q.rounds}",
+              ms(getattr(p, phase)), ms(getattr(q, phase)),
               bounded(e.ratio, e.low, e.high, 3, "  too few rounds"), verdict]
              for p, q, e, verdict in zip(first, second, pairs.itertuples(), verdicts)]
     count = verdicts.value_counts()
     return text_table(["point", "rounds", "A ms", "B ms", "A/B [low, high]", "B is"], lines, 1) + (
-        f"Of {len(pairs)} comparison{'' if len(pairs) == 1 else 's'} B is faster in {count.get('faster', 0)}, slower in "
-        f"{count.get('slower', 0)}, no difference is resolved in {count.get('not resolved', 0)} (95 % confidence over all "
-        "of them).\n")
+        f"Of {len(pairs)} comparison{'' if len(pairs) == 1 else 's'} B is faster in {count.get('faster', 0)}, slower "
+        f"in {count.get('slower', 0)}, no difference is resolved in {count.get('not resolved', 0)} (95 % confidence "
+        "over all of them).\n")

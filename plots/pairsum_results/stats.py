@@ -34,7 +34,10 @@ def medians(values: pd.DataFrame, by: str) -> pd.DataFrame:
         ends = [pd.DataFrame(ordered[:, at] if rank else np.nan, groups.index, columns).where(middle.notna())
                 .add_suffix(end) for at, end in ((rank - 1, "_low"), (n - rank if rank else 0, "_high"))]
         parts.append(pd.concat([middle, *ends], axis=1).assign(confidence=confidence, rounds=n))
-    return pd.concat(parts).sort_index() if parts else pd.DataFrame()
+    if not parts:
+        names = [f"{name}{end}" for name in values.columns.drop(by) for end in ("", "_low", "_high")]
+        return pd.DataFrame(columns=[*names, "confidence", "rounds"], index=pd.Index([], name=by), dtype=float)
+    return pd.concat(parts).sort_index()
 
 
 def ratios(logs: pd.DataFrame, base, other, level: float = LEVEL, paired: bool = True) -> pd.DataFrame:
@@ -91,8 +94,8 @@ def verdicts(table: pd.DataFrame, alpha: float = 1 - LEVEL) -> pd.Series:
 def components_of_variance(values: pd.DataFrame, by: str, process: str, value: str) -> pd.DataFrame:
     """Relative standard deviations "between" processes and "within" them for each group: the method of moments for
     unbalanced one-way data (Searle, Casella, McCulloch, Variance Components, 1992, sec. 3.6); a negative estimate is 0,
-    the mean is that of the processes' means. Without a process that has two values, "within" is null and "between" holds
-    both; with one process "between" is null."""
+    the mean is that of the processes' means. Without a process that has two values, "within" is null and "between"
+    holds both; with one process "between" is null."""
     groups = values.groupby([by, process])[value].agg(["mean", "var", "count"])
     groups["inside"] = (groups["var"] * (groups["count"] - 1)).fillna(0)
     groups["sum"] = groups["mean"] * groups["count"]

@@ -26,24 +26,25 @@ _TABLES = {"speedup": [*_RATIO, "efficiency", "machine_speedup", "of_machine"],
            "compiler_comparison": [*_RATIO, "build", "base_build"],
            "m_comparison": [*_RATIO, "best_M", "over_best"],
            "ladder": [*_RATIO, "series", "at", "rank", "of", "over_serial", "efficiency", "extra_bytes_per_particle"],
-           "shifts": ["series", "base_series", "what", "backend", "ratio", "low", "high", "verdict", "rank", "base_rank"],
+           "shifts": ["series", "base_series", "what", "backend", *_RATIO[2:], "rank", "base_rank"],
            "strategies": ["backend", "breaks_down"],
-           "self_test": ["what", "backend", "threads", "expected", "ratio", "low", "high", "confidence", "holds", "text"]}
+           "self_test": ["what", "backend", "threads", "expected", *_RATIO[2:5], "confidence", "holds", "text"]}
 _WHOLE = {"M", "best_M", "base", "seed", "workspace_bytes", "rounds"}
 
 
 def summary(report: Report) -> dict[str, Any]:
-    """What people and programs ask for: the answer, points, ratios, caveats (summary.schema.json). `point` and `base` are
-    places in "points", `series` in "series". Times in seconds, medians over rounds; ratios with intervals at 95 %."""
+    """What people and programs ask for: the answer, points, ratios, caveats (summary.schema.json). `point` and `base`
+    are places in "points", `series` in "series". Times in seconds, medians over rounds; ratios at 95 %."""
     r = report.results
-    answer = report.answer and {key: value for key, value in dataclasses.asdict(report.answer).items() if key != "ratio"} | {
-        **report.answer.ratio, **report.points.loc[report.answer.point, [*PLACE, "total_s"]].to_dict()}
+    answer = report.answer and {**dataclasses.asdict(report.answer), **report.answer.ratio,
+                                **report.points.loc[report.answer.point, [*PLACE, "total_s"]].to_dict()}
     content = {"schema": SCHEMA, "title": report.title, "sources": r.sources, "answer": answer,
                "questions": report.questions, "caveats": report.caveats,
-               "rounds": {"finished": len(r.closed), "void": r.void_rounds, "others_share": r.closed["others_share"].max()},
-               "environments": _records(r.environments, ["environment", "host", "cpu", "cores", "compiler", "flags", "git",
-                                                         "dirty", "binding", "governor", "os_kernel"]),
-               "peaks": _records(r.peaks, ["environment", "threads", "precision", "bandwidth_bytes_per_s", "flops_per_s"]),
+               "rounds": {"finished": len(r.closed), "void": r.void_rounds,
+                          "others_share": r.closed["others_share"].max()},
+               "environments": _records(r.environments, ["environment", "host", "cpu", "cores", "compiler", "flags",
+                                                         "git", "dirty", "binding", "governor", "os_kernel"]),
+               "peaks": _records(r.peaks, ["threads", "precision", "bandwidth_bytes_per_s", "flops_per_s"]),
                "series": _records(r.series, _SERIES), "points": _records(report.points, _POINT),
                **{name: _records(report.tables[name], columns) for name, columns in _TABLES.items()},
                "failed": _records(r.failed, ["study", "case", "state", "dx", *PLACE, "rows", "error"])}
@@ -84,8 +85,8 @@ def rounds(report: Report) -> pd.DataFrame:
 
 
 def write(report: Report, folder: pathlib.Path) -> str:
-    """Writes summary.json, tables.txt, tables.md, rounds.csv and csv/TABLE.csv; returns the text. Each file appears whole
-    or not at all; a table without lines takes away the file that an earlier report left."""
+    """Writes summary.json, tables.txt, tables.md, rounds.csv and csv/TABLE.csv; returns the text. Each file appears
+    whole or not at all; a table without lines takes away the file that an earlier report left."""
     text = tables.text(report)
     for name, content in (("tables.txt", text), ("tables.md", tables.markdown(report)),
                           ("summary.json", _printed(summary(report))),

@@ -30,6 +30,11 @@ def _ratio(e: Any, name: str = "", digits: int = 3) -> str:
     return bounded(value, getattr(e, f"{end}low"), getattr(e, f"{end}high"), digits, " (no interval)")
 
 
+def said(value: Any, yes: str = "yes", no: str = "no") -> str:
+    """A word or a flag; "-" if it is null."""
+    return "-" if pd.isna(value) else value if isinstance(value, str) else yes if value else no
+
+
 def series_tables(report: Report, series: int) -> Iterator[Table]:
     """The tables of one series."""
     named = names(report.points)
@@ -40,12 +45,12 @@ def series_tables(report: Report, series: int) -> Iterator[Table]:
     place = {"backend": lambda e: e.name, "M": lambda e: whole(e.M), "threads": lambda e: whole(e.threads)}
     speedups = own["speedup"].set_index("point")[["ratio", "efficiency"]]
     points = own["points"].join(speedups)
-    yield _table("Summation time per step, median over rounds; speedup and efficiency over the same backend on 1 thread",
-                 points, 1, **place, sum_ms=lambda e: ms(e.sum_s),
-                 interval=lambda e: "no interval" if pd.isna(e.sum_s_low) else f"[{ms(e.sum_s_low)}, {ms(e.sum_s_high)}]",
+    yield _table("Summation time per step, median over rounds; speedup and efficiency over the same backend on 1 "
+                 "thread", points, 1, **place, sum_ms=lambda e: ms(e.sum_s),
+                 interval=lambda e: "-" if pd.isna(e.sum_s_low) else f"[{ms(e.sum_s_low)}, {ms(e.sum_s_high)}]",
                  speedup=lambda e: fixed(e.ratio, 2), efficiency=lambda e: percent(e.efficiency),
                  ns_per_pair=lambda e: fixed(e.ns_per_pair, 3), rounds=lambda e: whole(e.rounds))
-    yield _table("Algorithm speedup: summation time of the base over that of the backend, at the same number of threads",
+    yield _table("Algorithm speedup: summation time of the base over that of the backend, on as many threads",
                  own["algorithm_speedup"], 2, runtime=lambda e: e.runtime, **place, ms=lambda e: ms(e.time_s),
                  base=lambda e: e.base_name + ("" if pd.isna(e.base_M) else f" M={e.base_M:.0f}"),
                  base_ms=lambda e: ms(e.base_time_s), speedup=_ratio)
@@ -60,19 +65,19 @@ def series_tables(report: Report, series: int) -> Iterator[Table]:
                  M=place["M"], threads=place["threads"], OpenMP_ms=lambda e: ms(e.base_time_s),
                  TBB_ms=lambda e: ms(e.time_s), ratio=_ratio, faster=lambda e: faster[e.verdict])
     over_m = own["m_comparison"].join(report.points[["cells", "cells_nonempty", "pairs_tested"]], on="point")
-    yield _table("Comparison over M: median times per step, cells, distance tests, those due to folded cells, and pairs "
-                 "found per test", over_m, 1, **place, sum_ms=lambda e: ms(e.sum_s), total_ms=lambda e: ms(e.time_s),
-                 cells=lambda e: whole(e.cells), non_empty=lambda e: whole(e.cells_nonempty),
-                 tested=lambda e: whole(e.pairs_tested), folded=lambda e: percent(e.collision_share),
-                 useful=lambda e: fixed(e.useful_pair_ratio, 4))
+    yield _table("Comparison over M: median times per step, cells, distance tests, those due to folded cells, and "
+                 "pairs found per test", over_m, 1, **place, sum_ms=lambda e: ms(e.sum_s),
+                 total_ms=lambda e: ms(e.time_s), cells=lambda e: whole(e.cells),
+                 non_empty=lambda e: whole(e.cells_nonempty), tested=lambda e: whole(e.pairs_tested),
+                 folded=lambda e: percent(e.collision_share), useful=lambda e: fixed(e.useful_pair_ratio, 4))
     known = points[points["bound_s"].notna() | points["wait_share"].notna()]
-    yield _table("Against the least time that arithmetic or memory bandwidth allows, and threads' time spent waiting at "
-                 "barriers", known, 1, **place, sum_ms=lambda e: ms(e.sum_s), bound_ms=lambda e: ms(e.bound_s),
-                 of_bound=lambda e: percent(e.share_of_bound), set_by=lambda e: "-" if pd.isna(e.limited_by) else e.limited_by,
-                 flop_per_byte=lambda e: fixed(e.intensity, 1), Gflops=lambda e: fixed(1e-9 * e.achieved_flops_per_s, 2),
-                 waiting=lambda e: percent(e.wait_share))
-    yield _table("Phases per step: median ms and share of the total (pair lists: prepare makes the list, sum sweeps it)",
-                 points, 1, **place, **{phase.removesuffix("_s"): _phase(phase) for phase in PHASES})
+    yield _table("Against the least time that arithmetic or memory bandwidth allows, and threads' time spent waiting "
+                 "at barriers", known, 1, **place, sum_ms=lambda e: ms(e.sum_s), bound_ms=lambda e: ms(e.bound_s),
+                 of_bound=lambda e: percent(e.share_of_bound), set_by=lambda e: said(e.limited_by),
+                 flop_per_byte=lambda e: fixed(e.intensity, 1),
+                 Gflops=lambda e: fixed(1e-9 * e.achieved_flops_per_s, 2), waiting=lambda e: percent(e.wait_share))
+    yield _table("Phases per step: median ms and share of the total (pair lists: prepare makes the list, sum sweeps "
+                 "it)", points, 1, **place, **{phase.removesuffix("_s"): _phase(phase) for phase in PHASES})
     yield _strategy_table(own["ladder"])
     builds = own["compiler_comparison"]
     for (build, base), table in builds.groupby(["build", "base_build"]):
@@ -84,7 +89,7 @@ def series_tables(report: Report, series: int) -> Iterator[Table]:
 def _phase(phase: str) -> Callable[[Any], str]:
     def cell(e: Any) -> str:
         time = getattr(e, phase)
-        share = phase != "total_s" and time / e.total_s == time / e.total_s
+        share = phase != "total_s" and pd.notna(time) and e.total_s > 0
         return ms(time) + (f" {100 * time / e.total_s:>3.0f}%" if share else "")
     return cell
 
@@ -108,15 +113,12 @@ def _strategy_table(ladder: pd.DataFrame) -> Table:
 
 def all_tables(report: Report) -> Iterator[Table]:
     """The tables over all series."""
-    def said(value: Any, yes: str = "yes", no: str = "no") -> str:
-        return "-" if pd.isna(value) else value if isinstance(value, str) else yes if value else no
-
     yield _table("Strategies: how each backend keeps threads apart, whether its bits are the same for every number of "
                  "threads", report.strategies, 6, backend=lambda e: e.backend, runtime=lambda e: said(e.runtime),
                  conflicts=lambda e: said(e.conflicts), pairs=lambda e: said(e.symmetric, "once", "twice"),
                  same_bits=lambda e: said(e.deterministic), also=lambda e: said(e.aliases))
-    yield _table("Strategies from one world to another: time over that of the base there, over the same here (below 1 it "
-                 "fares worse here)", report.shifts, 3, here=lambda e: e.world, there=lambda e: e.base_world,
+    yield _table("Strategies from one world to another: time over that of the base there, over the same here (below 1 "
+                 "it fares worse here)", report.shifts, 3, here=lambda e: e.world, there=lambda e: e.base_world,
                  backend=lambda e: e.backend, threads=lambda e: whole(e.threads), ratio=lambda e: _ratio(e, digits=2),
                  here_it_is=lambda e: e.verdict, rank=lambda e: f"{e.rank} of {e.of}",
                  rank_there=lambda e: f"{e.base_rank} of {e.base_of}")
@@ -133,8 +135,9 @@ def heading(results: Results, series: int) -> tuple[str, str]:
     e = results.environments[results.environments["environment"] == s["environment"]].iloc[0]
     return (f"{s['case']}, {s['state']}, dx {s['dx']:.10g}",
             f"{s['n_fluid']} fluid and {s['n_boundary']} boundary particles; study {s['study']}, order {s['order']}, "
-            f"{s['dim']}D, {s['precision']}, {s['interaction']}, {s['smoothing']}, {s['integrator']}, dt {s['dt']:.10g}; "
-            f"host {e['host']}, {e['cores']} cores, {e['compiler']}, git {e['git']}{' (dirty)' if e['dirty'] else ''}")
+            f"{s['dim']}D, {s['precision']}, {s['interaction']}, {s['smoothing']}, {s['integrator']}, dt "
+            f"{s['dt']:.10g}; host {e['host']}, {e['cores']} cores, {e['compiler']}, git {e['git']}"
+            f"{' (dirty)' if e['dirty'] else ''}")
 
 
 def _answers(report: Report) -> Iterator[str]:
@@ -151,7 +154,8 @@ def _rest(report: Report) -> Iterator[str]:
             wrapped(f"- {e.backend}: {e.breaks_down}") for e in broken.itertuples())
     if len(report.results.failed):
         yield "Failed points: these rows have no passed verification and are in no table\n" + "".join(
-            wrapped(f"- {place_words(f)} ({f.case}, {f.state}, dx {f.dx:.10g}, study {f.study}): {f.rows} rows: {f.error}")
+            wrapped(f"- {place_words(f)} ({f.case}, {f.state}, dx {f.dx:.10g}, study {f.study}): {f.rows} rows: "
+                    f"{f.error}")
             for f in report.results.failed.itertuples())
     if report.caveats:
         yield "Caveats: what to keep in mind with these numbers\n" + "".join(wrapped(f"- {c}") for c in report.caveats)

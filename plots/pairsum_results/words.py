@@ -37,8 +37,8 @@ def threads_words(n: int) -> str:
 
 
 def names(points: pd.DataFrame, with_grid: bool = True) -> pd.Series:
-    """What tells points apart beside M and threads: the backend, with the grid unless that is hashed_grid, and with isa,
-    block and granularity where the backend has several of them among these points."""
+    """What tells points apart beside M and threads: the backend, with the grid unless that is hashed_grid, and with
+    isa, block and granularity where the backend has several of them among these points."""
     text = points["backend"]
     if with_grid:
         text = text.where(points["grid"] == "hashed_grid", text + "/" + points["grid"])

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import pairsum_results as pr
+from pairsum_results import summary
 
 
 @pytest.fixture
@@ -71,7 +72,7 @@ def test_backends_are_compared_with_their_best_granularity(report):
 def test_caveats_say_what_weakens_the_numbers(report):
     r = report([(made.point("naive_omp", 6, 4), 1.0, {"lost": 3, "threads_worked": 2})], rounds=5)
     for text in ("more threads than cores: naive_omp M=6 threads=4", "particles were lost in a step: naive_omp M=6",
-                 "fewer threads worked than were asked for: naive_omp", "fewer than 6 rounds, so no interval of the median",
+                 "fewer threads worked in a step than were asked for: naive_omp", "fewer than 6 rounds, so no interval of the median",
                  "no speedup over 1 thread, which was not measured: naive_omp M=6 threads=4"):
         assert any(c.startswith(text) for c in r.caveats), text
     assert np.isnan(r.points["sum_s_low"][0]) and r.points["sum_s"][0] == pytest.approx(1.0)
@@ -177,3 +178,22 @@ def test_a_backend_that_no_build_here_knows_is_reported_with_what_it_says(report
     martian = r.strategies.set_index("backend").loc["martian_omp"]
     assert martian[["conflicts", "runtime", "description"]].to_list() == ["other", "omp", "martian_omp in one line"]
     assert only(r.ladder[r.ladder["at"] == "most_threads"], backend="martian_omp")["rank"] == 1
+
+
+@pytest.mark.parametrize("points, lines", [
+    ([(made.point("naive"), 1.0, {"error": "off", "phases": None, "work": None})], 0),
+    ([(made.point("again_naive"), 1.0)], 1), ([(made.point("naive_omp", 6, n), 0.0) for n in (1, 2)], 2),
+    ([(made.point("naive"), 1.0, {"phases": dict.fromkeys(pr.PHASES), "work": None})], 1)])
+def test_what_cannot_be_compared_is_reported_without_comparisons(report, points, lines, tmp_path):
+    r = report(points)
+    assert r.answer is None and not r.questions and len(r.points) == lines
+    assert all(table.empty for name, table in r.tables.items() if name not in ("points", "m_comparison", "self_test"))
+    summary.write(r, tmp_path)
+
+
+def test_threads_are_busy_or_wait(report):
+    passes = {"threads_busy_s": [[0.1, 0.2], [0.1, 0.0]], "barrier_wait_s": [[0.1, 0.0], [0.0, 0.1]]}
+    r = report([(made.point("symmetric_omp", 6, 2), 1.0, passes), (made.point("naive"), 1.0)])
+    times = pr.thread_times(r.results)
+    assert times[["thread", "busy_s", "waiting_s"]].to_numpy().ravel() == pytest.approx([0, 0.2, 0.1, 1, 0.2, 0.1])
+    assert only(r.points, backend="symmetric_omp")["wait_share"] == pytest.approx(1 / 3)
