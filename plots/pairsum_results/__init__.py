@@ -6,12 +6,20 @@
     pr.speedup(results)[["backend", "threads", "ratio", "low", "high", "verdict"]]
     pr.report(results).answer.text
 """
-from .answers import Answer, answer  # noqa: F401
-from .compare import (algorithm_speedup, compared, compiler_comparison, m_comparison, runtime_comparison,  # noqa: F401
-                      speedup)
-from .ladders import ladder, over_threads, shifts, strategies  # noqa: F401
-from .load import COMMON, EVALUATION, PLACE, POINT, TIMES, Results, load  # noqa: F401
-from .model import models, shares, thread_times  # noqa: F401
-from .reports import Report, report  # noqa: F401
-from .rows import PHASES, ResultsError  # noqa: F401
-from .self_tests import self_test  # noqa: F401
+import sys
+
+try:
+    from .answers import Answer, answer  # noqa: F401
+    from .compare import (algorithm_speedup, compared, compiler_comparison, m_comparison,  # noqa: F401
+                          runtime_comparison, speedup)
+    from .ladders import ladder, over_threads, shifts, strategies  # noqa: F401
+    from .load import COMMON, EVALUATION, PLACE, POINT, TIMES, Results, load  # noqa: F401
+    from .model import models, shares, thread_times  # noqa: F401
+    from .reports import Report, report  # noqa: F401
+    from .rows import PHASES, ResultsError  # noqa: F401
+    from .self_tests import self_test  # noqa: F401
+except ModuleNotFoundError as problem:
+    if sys.argv[:1] != ["-m"]:  # imported by a program of somebody's own
+        raise
+    print(f"pairsum: {sys.executable} lacks {problem.name} (Debian: python3-pandas, python3-scipy)", file=sys.stderr)
+    sys.exit(2)

@@ -1,6 +1,7 @@
 """The programs as a user runs them: report and compare."""
 import csv
 import json
+import os
 import subprocess
 import sys
 
@@ -61,15 +62,18 @@ def test_the_schema_holds_for_the_committed_rows(tmp_path):
 
 
 def test_errors_are_one_line_and_exit_code_2(rows, tmp_path):
-    def run(*words):
+    def run(*words, **environment):
         return subprocess.run([sys.executable, "-B", "-m", "pairsum_results", *words], cwd=ROOT / "plots", text=True,
-                              capture_output=True)
+                              capture_output=True, env={**os.environ, **environment})
     done = run("report", str(tmp_path / "none.jsonl"))
     assert (done.returncode, done.stdout) == (2, "") and done.stderr.startswith("pairsum: ") and done.stderr.count("\n") == 1
     assert run("report", "--help").returncode == 0 and run("compare", "a").returncode == 2
     (tmp_path / "file").write_text("")
     done = run("report", rows([(made.point("naive"), 1.0)]), "--out", str(tmp_path / "file/inside"))
     assert done.returncode == 2 and "cannot write" in done.stderr and done.stderr.count("\n") == 1
+    (tmp_path / "pandas.py").write_text("raise ModuleNotFoundError(name='pandas')")
+    done = run("report", "x", PYTHONPATH=str(tmp_path))
+    assert done.returncode == 2 and "lacks pandas (Debian: python3-pandas" in done.stderr and done.stderr.count("\n") == 1
 
 
 def test_a_ladder_in_ten_lines_of_pandas(rows):
