@@ -1,4 +1,4 @@
-"""The programs: `python3 -m pairsum_results report FILE...` and `compare A B`."""
+"""The programs: `python3 -m pairsum_results report FILE...`, `compare A B` and `history`."""
 import argparse
 import pathlib
 import sys
@@ -7,18 +7,18 @@ from .rows import PHASES, ResultsError
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run a program; return its exit code: 0, or 2 with one line on stderr."""
+    """Run a program; return its exit code: 0, 1 if the history found something slower, 2 with one line on stderr."""
     parser = argparse.ArgumentParser(prog="pairsum")
     programs = parser.add_subparsers(required=True, metavar="PROGRAM")
     _report_program(programs)
     _compare_program(programs)
+    _history_program(programs)
     options = parser.parse_args(arguments)
     try:
-        options.run(options)
+        return options.run(options) or 0
     except ResultsError as problem:
         print(f"pairsum: {' '.join(str(problem).split())}", file=sys.stderr)
         return 2
-    return 0
 
 
 def _report_program(programs) -> None:
@@ -65,6 +65,34 @@ def _compare(options: argparse.Namespace) -> None:
     from .sides import compare_sides
 
     print(compare_sides(options.a, options.b, options.inputs, options.phase, options.allow_mixed), end="")
+
+
+def _history_program(programs) -> None:
+    program = programs.add_parser(
+        "history", help="did a revision make something slower?", description="Did a revision make something slower? "
+        "Every point of the rows against the same point of the revision before it, on the same machine and with the "
+        "machine's own pace taken out; and, if there are several machines, against the others. Exit code 1 if the newest "
+        "revision of a machine is slower anywhere (95 % confidence over all points), 0 if not.")
+    program.add_argument("inputs", nargs="*", metavar="FILE", default=["results"],
+                         help="rows files, or folders of them, with the folders below (default: results)")
+    program.add_argument("--phase", default="sum", choices=[name.removesuffix("_s") for name in (*PHASES, "evaluation_s")],
+                         metavar="PHASE", help="%(choices)s (default: sum)")
+    program.add_argument("--out", metavar="DIR", type=pathlib.Path,
+                         help="folder for history.html, history.csv and machines.csv (default: history in the first "
+                         "folder of rows)")
+    program.set_defaults(run=_history)
+
+
+def _history(options: argparse.Namespace) -> int:
+    from . import history_report
+    from .history import load_history
+
+    first = pathlib.Path(options.inputs[0])
+    folder = options.out or (first if first.is_dir() else first.parent) / "history"
+    found = load_history(options.inputs, f"{options.phase}_s")
+    print(history_report.write(found, folder), end="")
+    print(f"page: {folder / 'history.html'}")
+    return 1 if len(found.slower) else 0
 
 
 if __name__ == "__main__":
