@@ -71,12 +71,13 @@ def _history_program(programs) -> None:
     program = programs.add_parser(
         "history", help="did a revision make something slower?", description="Did a revision make something slower? "
         "Every point of the rows against the same point of the revision before it, on the same machine and with the "
-        "machine's own pace taken out; and, if there are several machines, against the others. Exit code 1 if the newest "
-        "revision of a machine is slower anywhere (95 % confidence over all points), 0 if not.")
+        "machine's own pace taken out; and, if there are several machines, against the others. Exit code 1 if the "
+        "newest revision of a machine is slower anywhere (95 % confidence over all points), 0 if not.")
     program.add_argument("inputs", nargs="*", metavar="FILE", default=["results"],
                          help="rows files, or folders of them, with the folders below (default: results)")
-    program.add_argument("--phase", default="sum", choices=[name.removesuffix("_s") for name in (*PHASES, "evaluation_s")],
-                         metavar="PHASE", help="%(choices)s (default: sum)")
+    phases = [name.removesuffix("_s") for name in (*PHASES, "evaluation_s")]
+    program.add_argument("--phase", default="sum", choices=phases, metavar="PHASE",
+                         help="%(choices)s (default: sum)")
     program.add_argument("--out", metavar="DIR", type=pathlib.Path,
                          help="folder for history.html, history.csv and machines.csv (default: history in the first "
                          "folder of rows)")

@@ -10,6 +10,7 @@ from . import stats, words
 from .compare import judged
 from .load import POINT, Results, collect
 from .rows import ResultsError, read
+from .self_tests import self_tests
 
 #: What tells machines apart, with the way the program was built and bound there.
 _MACHINE = ["host", "cpu", "cores", "compiler", "binding"]
@@ -21,17 +22,18 @@ class History:
     """Points by revision and machine. Times in seconds, medians over rounds.
 
     revisions  index `revision` (0, 1, ... in the order in which they were first measured): `git`, `utc`
-    machines   index `machine`: host, cpu, cores, compiler, binding, flags (null unless they tell machines apart), `name`
+    machines   index `machine`: host, cpu, cores, compiler, binding, flags (null unless they tell machines apart),
+               `name`
     lines      index `line`: a point on a machine: POINT, `seed`, `machine`, `revisions` (how many); if it is compared,
                `label` and `world` (its problem)
     steps      a line per `line` and two successive revisions in which it was measured, `base_revision` and `revision`:
                `base_time_s`, `time_s`; `ratio` (above 1: faster now), `low`, `high`, `p`, `rounds`, `verdict` as in
-               compare.py, over the whole table; `machine_ratio`: what the machine's own pace contributed to the ratio of
-               the times, and is taken out (null without paces); `newest`: it is the newest revision of its machine
+               compare.py, over the whole table; `machine_ratio`: what the machine's own pace contributed to the ratio
+               of the times, and is taken out (null without paces); `newest`: it is the newest revision of its machine
     elsewhere  a line per point that two machines measured with one revision: `line`, `base` (lines), `revision`,
-               `time_s`, `base_time_s`, `ratio`, `low`, `high`, and `flops_ratio`, `bandwidth_ratio` of the machines' peaks
+               `time_s`, `base_time_s`, `ratio`, `low`, `high`; `flops_ratio`, `bandwidth_ratio` of the machines' peaks
     dirty      rounds left out: uncommitted changes have no revision
-    failed     points with rows that did not pass the verification
+    failed     points with rows that did not pass the verification, but for those of self-test backends
     """
     phase: str
     revisions: pd.DataFrame
@@ -74,7 +76,8 @@ def history(results: Results, phase: str = "sum_s") -> History:
     builds, machines, revisions = _builds(results)
     rounds = results.rounds[results.rounds["point"].isin(results.times(phase).dropna().index)]
     rounds = rounds.merge(results.paces, on=["file", "round", "study", "build", "threads", "precision"], how="left")
-    rounds = rounds.join(builds[["machine", "revision"]], on="build").join(results.points[["seed", "steps"]], on="point")
+    rounds = rounds.join(builds[["machine", "revision"]], on="build")
+    rounds = rounds.join(results.points[["seed", "steps"]], on="point")
     dirty = rounds.loc[rounds["revision"] < 0, ["file", "round"]].drop_duplicates()
     rounds = rounds[rounds["revision"] >= 0].reset_index(drop=True)
     what = rounds[["seed", *POINT] + (["steps"] if phase != "sum_s" else [])].fillna({"seed": 0, "M": 0})
@@ -94,7 +97,8 @@ def history(results: Results, phase: str = "sum_s") -> History:
     elsewhere = _elsewhere(results, cells, lines, machines, builds, logs)
     compared = lines[lines.index.isin([*steps["line"], *elsewhere["line"], *elsewhere["base"]])]
     lines["label"], lines["world"] = _labels(compared), _worlds(compared)
-    return History(phase, revisions, machines, lines.drop(columns="what"), steps, elsewhere, len(dirty), results.failed)
+    failed = results.failed[~results.failed["backend"].isin(self_tests(results).index)]
+    return History(phase, revisions, machines, lines.drop(columns="what"), steps, elsewhere, len(dirty), failed)
 
 
 def _builds(results: Results) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:

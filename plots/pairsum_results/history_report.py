@@ -10,6 +10,7 @@ from .history import History
 from .summary import write_file
 from .words import bounded, ms, text_table, wrapped
 
+_WORDS = 5  #: columns of both tables that hold words, at their left
 _FEW = 10  #: lines of a table in the text; the page has all
 #: The drawing of a panel, in pixels: inside its frame, and the frame's left and top.
 WIDTH, HEIGHT, LEFT, TOP = 190, 90, 40, 8
@@ -17,24 +18,40 @@ _LEAST_SPAN = np.log(1.05)
 _APART = 11  #: pixels between words beside a panel
 
 
+def _hoisted(caption: str, header: list[str], rows: list[list[str]]) -> tuple[str, list[str], list[list[str]]]:
+    """The table without columns of words that are the same in all its lines, which stand in the caption instead."""
+    words = [k for k in range(1, _WORDS) if len({row[k] for row in rows}) == 1]
+    kept = [k for k in range(len(header)) if k not in words]
+    return ("; ".join([caption, *(f"{header[k]}: {rows[0][k]}" for k in words)]), [header[k] for k in kept],
+            [[row[k] for k in kept] for row in rows])
+
+
+def _few(caption: str, header: list[str], rows: list[list[str]]) -> str:
+    """The first lines of a table."""
+    if not rows:
+        return ""
+    said, shown, cells = _hoisted(caption, header, rows[:_FEW])
+    table = text_table(shown, cells, _WORDS - len(header) + len(shown))
+    return f"\n{wrapped(said)}{table}" + (f"and {len(rows) - _FEW} more\n" if len(rows) > _FEW else "")
+
+
 def text(h: History) -> str:
     """The answer first: how many points the newest revisions made slower or faster; then the steps that say so."""
-    compared, newest = h.steps, h.steps[h.steps["newest"]]
+    newest = h.steps[h.steps["newest"]]
     found = _sentence(h)
-    for verdict, table in (("slower", h.slower), ("faster", newest[newest["verdict"] == "faster"].sort_values(
-            "ratio", ascending=False))):
-        if len(table):
-            found += f"\n{verdict} in the newest revision:\n" + _table(h, table.head(_FEW))
-            found += f"and {len(table) - _FEW} more\n" if len(table) > _FEW else ""
-    if len(h.elsewhere):
-        found += "\nthe same revision on two machines (ratios above 1: the second is faster):\n" + _two_machines(h)
-    return found + ("\n" if len(compared) else "") + "".join(wrapped(note) for note in notes(h))
+    faster = newest[newest["verdict"] == "faster"].sort_values("ratio", ascending=False)
+    for verdict, table in (("slower", h.slower), ("faster", faster)):
+        found += _few(f"{verdict} now", _HEADER, list(_cells(h, table)))
+    found += _few("the same revision on two machines; ratios above 1: the second is faster", _MACHINE_HEADER,
+                  list(_machine_cells(h)))
+    return found + "".join("\n" + wrapped(note) for note in notes(h))
 
 
 def _sentence(h: History) -> str:
     newest, before = h.steps[h.steps["newest"]], h.steps[~h.steps["newest"]]
     if h.steps.empty:
-        return wrapped(f"No point was measured with two revisions on one machine: {len(h.lines)} points, "
+        alike = "" if h.phase == "sum_s" else ", in as many steps"
+        return wrapped(f"No point was measured with two revisions on one machine{alike}: {len(h.lines)} points, "
                        f"{len(h.revisions)} revisions, {len(h.machines)} machines.")
     said = []
     for table, when in ((newest, "in the newest revision of their machine"), (before, "in revisions before")):
@@ -50,10 +67,10 @@ def notes(h: History) -> list[str]:
     found = []
     unpaired, unpaced = (h.steps["rounds"] == 0).sum(), h.steps["machine_ratio"].isna().sum()
     if unpaired:
-        found.append("revisions were measured apart: what disturbed one of them, and is not in the machine's pace, is in "
-                     "the ratios")
+        found.append("revisions were measured apart: what disturbed one of them, and is not in the machine's pace, is "
+                     "in the ratios")
     if unpaced:
-        found.append(f"{unpaced} of {len(h.steps)} ratios are of times as they are, because rows lack the machine's pace")
+        found.append(f"{unpaced} of {len(h.steps)} ratios are of times as they are: rows lack the machine's pace")
     once = (h.lines["revisions"] == 1).sum()
     if once and len(h.steps):
         found.append(f"{once} points were measured with one revision alone")
@@ -77,14 +94,10 @@ def _cells(h: History, steps: pd.DataFrame) -> Iterator[list[str]]:
     for e in _named(h, steps).itertuples():
         yield [e.label, e.world, e.machine_name, e.base_git, e.git, ms(e.base_time_s), ms(e.time_s),
                "-" if np.isnan(e.machine_ratio) else f"{e.machine_ratio:.3f}",
-               bounded(e.ratio, e.low, e.high, 3, " (too few rounds)"), e.verdict]
+               bounded(e.ratio, e.low, e.high, 3, " (too few rounds)")]
 
 
-_HEADER = ["point", "problem", "machine", "from", "to", "ms", "ms now", "pace", "ratio [low, high]", "now"]
-
-
-def _table(h: History, steps: pd.DataFrame) -> str:
-    return text_table(_HEADER, _cells(h, steps), 5)
+_HEADER = ["point", "problem", "machine", "from", "to", "ms", "ms now", "pace", "ratio [low, high]"]
 
 
 def _machine_cells(h: History) -> Iterator[list[str]]:
@@ -98,11 +111,6 @@ def _machine_cells(h: History) -> Iterator[list[str]]:
 
 _MACHINE_HEADER = ["point", "problem", "machine", "second", "revision", "ms", "ms on second", "ratio [low, high]",
                    "flops", "bandwidth"]
-
-
-def _two_machines(h: History) -> str:
-    rows = list(_machine_cells(h))
-    return text_table(_MACHINE_HEADER, rows[:_FEW], 5) + (f"and {len(rows) - _FEW} more\n" if len(rows) > _FEW else "")
 
 
 def _tracks(h: History) -> pd.DataFrame:
@@ -129,7 +137,7 @@ def sections(h: History) -> list[dict[str, Any]]:
     panels = [_panel(own) for _, own in tracks.groupby(["machine", "world", "name"], sort=False)]
     titles = {"slower": "Slower in the newest revision", "changed": "Changed", "same": "No change resolved"}
     found = [{"kind": kind, "title": title, "panels": sorted((p for p in panels if p["kind"] == kind),
-                                                            key=lambda p: p["worst"])}
+                                                            key=lambda p: -p["change"])}
              for kind, title in titles.items()]
     return [section for section in found if section["panels"]]
 
@@ -137,7 +145,8 @@ def sections(h: History) -> list[dict[str, Any]]:
 def _panel(tracks: pd.DataFrame) -> dict[str, Any]:
     gits = tracks.sort_values("revision")["git"].unique()
     x = pd.Series(LEFT + WIDTH * (np.arange(len(gits)) + 0.5) / len(gits), gits)
-    span = max(_LEAST_SPAN, 1.1 * tracks["log"].abs().max())
+    most, ends = tracks["log"].abs().max(), tracks[["log_low", "log_high"]].abs().max().max()
+    span = np.nanmax([_LEAST_SPAN, 1.1 * most, min(1.05 * ends, 2 * most)])
     tracks = tracks.assign(x=tracks["git"].map(x), **{f"y{end}": TOP + HEIGHT / 2 * (1 - tracks[f"log{end}"].clip(
         -span, span) / span) for end in ("", "_low", "_high")})
     lines = [_line(own) for _, own in tracks.groupby("line")]
@@ -147,10 +156,10 @@ def _panel(tracks: pd.DataFrame) -> dict[str, Any]:
     first, resolved = tracks.iloc[0], tracks["verdict"].isin(["slower", "faster"])
     kind = ("slower" if (tracks["newest"] & (tracks["verdict"] == "slower")).any() else
             "changed" if resolved.any() else "same")
-    least = tracks.loc[resolved, "ratio"].min() if resolved.any() else tracks["ratio"].min()
-    return {"title": first["name"], "world": first["world"], "machine": first["machine_name"], "kind": kind, "lines": lines,
-            "worst": least, "gits": [(x[git], git[:7]) for git in gits],
-            "most": f"{np.exp(span):.2f}", "least": f"{np.exp(-span):.2f}"}
+    change = np.log(tracks["ratio"]).abs()
+    return {"title": first["name"], "world": first["world"], "machine": first["machine_name"], "kind": kind,
+            "change": (change[resolved] if resolved.any() else change).max(), "lines": lines,
+            "gits": [(x[git], git[:7]) for git in gits], "most": f"{np.exp(span):.2f}", "least": f"{np.exp(-span):.2f}"}
 
 
 def _line(own: pd.DataFrame) -> dict[str, Any]:
@@ -168,10 +177,14 @@ def page(h: History) -> str:
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
                                      trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     changed = h.steps[h.steps["verdict"] != "not resolved"].sort_values(["newest", "ratio"], ascending=[False, True])
+    rows = [[*row, verdict] for row, verdict in zip(_cells(h, changed), changed["verdict"])]
+    tables = [_hoisted("Time before over time now: above 1 is faster, the machine's pace taken out; pace: how much "
+                       "more the machine itself did", [*_HEADER, "now"], rows),
+              _hoisted("Time on the first machine over time on the second; flops and bandwidth: peaks of the second "
+                       "over those of the first on as many threads", _MACHINE_HEADER, list(_machine_cells(h)))]
     return environment.get_template("history.html.j2").render(
-        h=h, answer=_sentence(h), notes=notes(h), sections=sections(h), header=_HEADER, rows=list(_cells(h, changed)),
-        machine_header=_MACHINE_HEADER, machine_rows=list(_machine_cells(h)), left=LEFT, top=TOP, width=WIDTH,
-        height=HEIGHT, phase=h.phase.removesuffix("_s"))
+        answer=_sentence(h), notes=notes(h), sections=sections(h), changes=tables[0], machines=tables[1], left=LEFT,
+        top=TOP, width=WIDTH, height=HEIGHT, phase=h.phase.removesuffix("_s"), revisions=h.revisions)
 
 
 def write(h: History, folder: pathlib.Path) -> str:

@@ -1,0 +1,167 @@
+"""The history of made revisions whose changes, and whose machines' pace, are known."""
+import re
+
+import made
+import numpy as np
+import pandas as pd
+import pytest
+
+import pairsum_results as pr
+from pairsum_results import __main__ as program
+from pairsum_results.history import load_history
+
+BACKENDS = ["naive", "symmetric", "naive_omp", "symmetric_omp", "locks_omp", "copies_omp"]
+
+
+@pytest.fixture
+def measure(tmp_path):
+    """Writes the rows of a revision: each backend's time times what `change` says, on a machine that is so slow, and
+    whose pace shows it. Every point and the paces have 1 % of scatter, and the rounds that of made.py."""
+    def of(git, day, change={}, slow=1.0, paces=True, rounds=12, environment={}, backends=BACKENDS, schema=3, **place):
+        random = np.random.default_rng(day)
+        name, paced = f"{day:016x}", random.normal(1, 0.01, rounds)
+
+        def point(backend, time):
+            noise = random.normal(0, 0.01, rounds)
+            factor = slow * time * change.get(backend, 1)
+            return (made.point(backend, 6, 2 if "_" in backend else 1, **place), factor,
+                    lambda k: {"time": np.exp(noise[k - 1]), "environment": name})
+
+        before = [made.environment(name, git=git, **environment), *(
+            {**made.pace(k, threads, threads * 1e9 * paced[k - 1] / slow / made.DISTURBANCE[(k - 1) % 6]), "environment": name}
+            for k in range(1, rounds + 1) for threads in (1, 2) if paces), *(
+            {**made.peak(threads, threads * 1e9 / slow, 1e10), "environment": name} for threads in (1, 2))]
+        rows = made.study([point(backend, 1 / (k + 1)) for k, backend in enumerate(backends)], rounds, before)
+        rows = [{**row, "utc": f"2026-11-{day:02d}T00:00:00Z"} for row in rows]
+        rows = [row for row in map(made.former, rows) if row] if schema == 2 else rows
+        return made.write(tmp_path / f"all/talk/{git}-{day}.jsonl", rows)
+    return of
+
+
+def verdicts(h):
+    return h.steps.join(h.lines[["backend"]], on="line").set_index("backend")["verdict"].to_dict()
+
+
+def test_a_slower_backend_is_found_and_no_other_accused(measure):
+    h = load_history([measure("bbbb222", 2, {"symmetric_omp": 1.1}, slow=1.4), measure("aaaa111", 1)])
+    assert h.revisions["git"].to_list() == ["aaaa111", "bbbb222"]  # as measured, not as named
+    assert verdicts(h) == {**dict.fromkeys(BACKENDS, "not resolved"), "symmetric_omp": "slower"}
+    found = h.slower.iloc[0]
+    assert found["low"] < 1 / 1.1 < found["high"] and found["high"] - found["low"] < 0.05
+    assert found["time_s"] / found["base_time_s"] == pytest.approx(1.4 * 1.1, rel=0.02)  # as timed, which is said, too
+    assert h.steps["machine_ratio"].to_list() == pytest.approx([1 / 1.4] * 6, rel=0.01)
+    assert h.steps["newest"].all() and (h.steps["rounds"] == 0).all()
+
+
+def test_without_paces_a_slow_machine_is_taken_for_a_slow_revision(measure):
+    """The test above must be able to fail: its finding hangs on the paces."""
+    h = load_history([measure("aaaa111", 1, paces=False, rounds=30), measure("bbbb222", 2, slow=1.4, rounds=30)])
+    assert set(verdicts(h).values()) == {"slower"} and h.steps["machine_ratio"].isna().all()
+    assert h.steps["ratio"].to_list() == pytest.approx([1 / 1.4] * 6, rel=0.02)
+
+
+def test_nothing_is_accused_that_did_not_change(measure):
+    h = load_history([measure("aaaa111", 1), measure("bbbb222", 2, slow=0.7), measure("cccc333", 3, slow=1.2)])
+    assert set(h.steps["verdict"]) == {"not resolved"} and len(h.steps) == 12 and h.slower.empty
+    assert h.steps.groupby("line")["revision"].agg(list).to_list() == [[1, 2]] * 6
+
+
+def test_only_the_newest_revision_of_a_machine_is_guilty(measure, capsys, tmp_path):
+    files = [measure("aaaa111", 1), measure("bbbb222", 2, {"naive": 1.2}), measure("cccc333", 3, {"naive": 1.2})]
+    h = load_history(files)
+    assert (h.steps["verdict"] == "slower").sum() == 1 and h.slower.empty
+    assert program.main(["history", *map(str, files), "--out", str(tmp_path / "out")]) == 0
+    assert " ".join(capsys.readouterr().out.split()).startswith(
+        "0 of 6 points got slower, 0 faster, 6 not resolved, in the newest revision of their machine; 1 of 6 points got "
+        "slower, 0 faster, 5 not resolved, in revisions before (sum, 95 % confidence over all).")
+
+
+def test_another_machine_is_no_revision_but_stands_beside(measure):
+    elsewhere = {"host": "other", "cpu": "another model"}
+    h = load_history([measure("aaaa111", 1), measure("aaaa111", 2, slow=2, environment=elsewhere)])
+    assert h.steps.empty and len(h.elsewhere) == 6 and h.machines["name"].to_list() == ["node", "other"]
+    e = h.elsewhere.iloc[0]
+    assert e["low"] < 0.5 < e["high"] and e["bandwidth_ratio"] == 1
+    assert e["flops_ratio"] == pytest.approx(0.5, rel=0.02)
+    assert (h.lines["machine"][e["base"]], h.lines["machine"][e["line"]]) == (0, 1)
+    h = load_history([measure("aaaa111", 1), measure("bbbb222", 2, environment=elsewhere)])
+    assert h.steps.empty and h.elsewhere.empty  # another revision on another machine: nothing to compare
+
+
+@pytest.mark.parametrize("change", [{"cores": 4}, {"compiler": "Clang 14.0.6"}, {"binding": "none: EPERM"}])
+def test_other_compilers_cores_and_bindings_are_no_revision_either(measure, change):
+    assert load_history([measure("aaaa111", 1), measure("bbbb222", 2, environment=change)]).steps.empty
+
+
+def test_flags_belong_to_the_revision_unless_one_was_measured_with_several(measure):
+    files = [measure("aaaa111", 1), measure("bbbb222", 2, environment={"flags": "-O2"})]
+    assert len(load_history(files).steps) == 6
+    h = load_history([*files, measure("bbbb222", 3)])
+    assert h.steps["line"].nunique() == len(h.steps) == 6 and sorted(h.machines["name"]) == ["node, -O2", "node, -O3"]
+
+
+def test_steps_of_another_number_are_compared_in_the_summation_alone(measure):
+    files = [measure("aaaa111", 1), measure("bbbb222", 2)]
+    text = files[1].read_text()
+    lines = [line for line in text.splitlines() if '"step": 2' not in line]
+    files[1].write_text("\n".join(lines).replace('"rows": 12', '"rows": 6') + "\n")
+    assert len(load_history(files).steps) == 6 and load_history(files, "total_s").steps.empty
+
+
+def test_uncommitted_changes_have_no_revision(measure, tmp_path, capsys):
+    files = [measure("aaaa111", 1), measure("bbbb222", 2, {"naive": 2}, environment={"dirty": True})]
+    assert program.main(["history", *map(str, files), "--out", str(tmp_path / "out")]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("No point was measured with two revisions on one machine: 6 points, 1 revision")
+    assert "12 rounds left out: built from a tree with uncommitted changes" in out
+
+
+def test_revisions_measured_in_the_same_rounds_are_paired(tmp_path):
+    one, two = made.environment("1" * 16, git="aaaa111"), made.environment("2" * 16, git="bbbb222")
+    points = [(made.point(name), 1.0, {"environment": e["environment"], "time": factor, "utc": utc})
+              for name in BACKENDS for e, factor, utc in ((one, 1, "2026-11-01T00:00:00Z"), (two, 1.02, "2026-11-01T01:00:00Z"))]
+    h = load_history([made.write(tmp_path / "rows.jsonl", made.study(points, before=[one, two]))])
+    assert h.steps["rounds"].to_list() == [6] * 6 and h.steps["ratio"].to_list() == pytest.approx([1 / 1.02] * 6)
+
+
+def test_the_program_says_what_is_slower_and_ends_with_1(measure, tmp_path, capsys):
+    for git, day, change in (("aaaa111", 1, {}), ("bbbb222", 2, {"locks_omp": 1.3, "naive": 0.7})):
+        measure(git, day, change, slow=1 + 0.1 * day, schema=1 + day)
+    assert program.main(["history", str(tmp_path / "all")]) == 1  # the rows are in a folder below
+    out, folder = capsys.readouterr().out, tmp_path / "all/history"
+    assert out.startswith("1 of 6 points got slower, 1 faster, 4 not resolved, in the newest revision of their machine")
+    slower = re.search(r"slower now; problem: dam_break 3D dx=0.00594; machine: node; from: aaaa111; to: bbbb222\n"
+                       r"point +ms +ms now +pace +ratio \[low, high\]\nlocks_omp M=6 threads=2 .* 0\.7\d\d \[", out)
+    assert slower and "faster now" in out and f"page: {folder / 'history.html'}\n" in out
+    steps = pd.read_csv(folder / "history.csv")
+    assert len(steps) == 6 and steps.set_index("backend")["verdict"]["locks_omp"] == "slower"
+    page = (folder / "history.html").read_text()
+    assert page.count("<polyline") == 6 and page.count("<svg") == 6 and "http" not in page.replace("http-equiv", "")
+    assert page.index("Slower in the newest revision (1)") < page.index("Changed (1)") < page.index("No change resolved (4)")
+    assert '<b>locks_omp M=6</b>' in page.split("Changed (1)")[0]
+    assert program.main(["history", str(tmp_path / "all"), "--phase", "total", "--out", str(tmp_path / "out")]) == 1
+
+
+def test_points_on_a_page_lie_where_the_ratios_say(measure):
+    from pairsum_results.history_report import HEIGHT, TOP, sections
+    h = load_history([measure("aaaa111", 1), measure("bbbb222", 2, {"naive": 2}), measure("cccc333", 3, {"naive": 1})])
+    panel = sections(h)[0]["panels"][0]
+    first, slow, back = panel["lines"][0]["dots"]
+    assert panel["title"] == "naive M=6" and first["x"] < slow["x"] < back["x"]
+    assert first["y"] == TOP + HEIGHT / 2 and slow["y"] < TOP + 0.1 * HEIGHT  # up is slower
+    assert back["y"] == pytest.approx(first["y"], abs=2) and (slow["verdict"], back["verdict"]) == ("slower", "faster")
+
+
+def test_bad_input_is_one_line_and_2(measure, tmp_path, capsys):
+    (tmp_path / "empty").mkdir()
+    broken = tmp_path / "broken.jsonl"
+    broken.write_text(measure("aaaa111", 1).read_text() + '{"cut')
+    for words, says in (([str(tmp_path / "empty")], "has no rows files (*.jsonl) in it, nor in the folders below"),
+                        ([str(broken)], "the last line is cut"), ([str(tmp_path / "none")], "cannot be read")):
+        assert program.main(["history", *words, "--out", str(tmp_path / "out")]) == 2
+        error = capsys.readouterr().err
+        assert says in error and error.count("\n") == 1 and not (tmp_path / "out").exists()
+    with pytest.raises(SystemExit) as caught:
+        program.main(["history", "--phase", "tea"])
+    assert caught.value.code == 2
+
