@@ -21,7 +21,7 @@ _HARDWARE = _MACHINE[:3]
 class History:
     """Points by revision and machine. Times in seconds, medians over rounds.
 
-    revisions  index `revision` (0, 1, ... in the order in which they were first measured): `git`, `utc`
+    revisions  index `revision` (0, 1, ... in the order of their environment rows): `git`, `utc`
     machines   index `machine`: host, cpu, cores, compiler, binding, flags (null unless they tell machines apart),
                `name`
     lines      index `line`: a point on a machine: POINT, `seed`, `machine`, `revisions` (how many); if it is compared,
@@ -109,8 +109,8 @@ def _builds(results: Results) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]
     several = several.groupby([builds[name] for name in _MACHINE]).transform("any")
     builds["flags"] = builds["flags"].where(several)
     clean = builds[~builds["dirty"].astype(bool)]
-    utc = results.samples.groupby("build")["utc"].min()
-    first = utc[clean.index].groupby(clean["git"]).min().sort_values()
+    seen = results.environments[results.environments["git"].isin(clean["git"])]
+    first = seen.groupby("git")["utc"].min().sort_values(kind="stable")
     keys = [*_MACHINE, "flags"]
     builds["machine"] = builds.groupby(keys, dropna=False, sort=False).ngroup()
     builds["revision"] = builds["git"].map(pd.Series(range(len(first)), first.index)).where(

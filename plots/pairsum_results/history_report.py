@@ -6,14 +6,16 @@ import jinja2
 import numpy as np
 import pandas as pd
 
+from .compare import first_few
 from .history import History
 from .summary import write_file
-from .words import bounded, ms, text_table, wrapped
+from .words import bounded, ms, text_table, threads_words, wrapped
 
 _WORDS = 5  #: columns of both tables that hold words, at their left
 _FEW = 10  #: lines of a table in the text; the page has all
 #: The drawing of a panel, in pixels: inside its frame, and the frame's left and top.
 WIDTH, HEIGHT, LEFT, TOP = 190, 90, 40, 8
+_MANY = 5  #: points that move together are suspicious
 _LEAST_SPAN = np.log(1.05)
 _APART = 11  #: pixels between words beside a panel
 
@@ -69,6 +71,7 @@ def notes(h: History) -> list[str]:
     if unpaired:
         found.append("revisions were measured apart: what disturbed one of them, and is not in the machine's pace, is "
                      "in the ratios")
+    found += _together(h)
     if unpaced:
         found.append(f"{unpaced} of {len(h.steps)} ratios are of times as they are: rows lack the machine's pace")
     once = (h.lines["revisions"] == 1).sum()
@@ -80,6 +83,19 @@ def notes(h: History) -> list[str]:
         backends = ", ".join(sorted(set(h.failed["backend"])))
         found.append(f"{len(h.failed)} points have rows without a passed verification, which are left out: {backends}")
     return found
+
+
+def _together(h: History) -> list[str]:
+    """The note on points measured apart that nearly all moved the same way, as they do when the machine changed."""
+    apart = _named(h, h.steps[h.steps["rounds"] == 0])
+    logs = np.log(apart["ratio"]).groupby([apart[name] for name in ("git", "machine_name", "world", "threads")])
+    moved = logs.agg(["size", "median", lambda values: abs(np.sign(values).sum()) / len(values)]).set_axis(
+        ["size", "median", "alike"], axis="columns")
+    moved = moved[(moved["size"] >= _MANY) & (moved["alike"] >= 0.8) & (moved["median"].abs() > _LEAST_SPAN)]
+    said = [f"{world} on {threads_words(threads)} ({machine}, {git}): {e.size:.0f} points by {np.exp(e.median):.2f}"
+            for (git, machine, world, threads), e in zip(moved.index, moved.itertuples(index=False))]
+    return ["points moved together, as if the machine had changed in a way that its pace does not show; measuring both "
+            f"revisions in the same rounds (plan compilers) would tell: {first_few(said)}"] if said else []
 
 
 def _named(h: History, steps: pd.DataFrame) -> pd.DataFrame:

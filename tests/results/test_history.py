@@ -9,6 +9,7 @@ import pytest
 import pairsum_results as pr
 from pairsum_results import __main__ as program
 from pairsum_results.history import load_history
+from pairsum_results.history_report import HEIGHT, TOP, notes, sections
 
 BACKENDS = ["naive", "symmetric", "naive_omp", "symmetric_omp", "locks_omp", "copies_omp"]
 
@@ -117,11 +118,14 @@ def test_uncommitted_changes_have_no_revision(measure, tmp_path, capsys):
 
 
 def test_revisions_measured_in_the_same_rounds_are_paired(tmp_path):
-    one, two = made.environment("1" * 16, git="aaaa111"), made.environment("2" * 16, git="bbbb222")
-    points = [(made.point(name), 1.0, {"environment": e["environment"], "time": factor, "utc": utc})
-              for name in BACKENDS for e, factor, utc in ((one, 1, "2026-11-01T00:00:00Z"), (two, 1.02, "2026-11-01T01:00:00Z"))]
+    one, two = (made.environment(digit * 16, git=git, utc=f"2026-11-0{digit}T00:00:00Z")
+                for digit, git in (("1", "bbbb222"), ("2", "aaaa111")))
+    points = [(made.point(name), 1.0, {"environment": e["environment"], "time": factor})
+              for name in BACKENDS for e, factor in ((two, 1.02), (one, 1))]  # in whichever order rounds took them
     h = load_history([made.write(tmp_path / "rows.jsonl", made.study(points, before=[one, two]))])
-    assert h.steps["rounds"].to_list() == [6] * 6 and h.steps["ratio"].to_list() == pytest.approx([1 / 1.02] * 6)
+    assert h.revisions["git"].to_list() == ["bbbb222", "aaaa111"]
+    assert h.steps["rounds"].to_list() == [6] * 6 and not any("apart" in note for note in notes(h))
+    assert h.steps["ratio"].to_list() == pytest.approx([1 / 1.02] * 6)
 
 
 def test_the_program_says_what_is_slower_and_ends_with_1(measure, tmp_path, capsys):
@@ -142,8 +146,18 @@ def test_the_program_says_what_is_slower_and_ends_with_1(measure, tmp_path, caps
     assert program.main(["history", str(tmp_path / "all"), "--phase", "total", "--out", str(tmp_path / "out")]) == 1
 
 
+def test_points_that_move_together_are_said_to(measure):
+    alike = dict.fromkeys(BACKENDS, 1.3)  # but for the pace, as if the machine had changed
+    said = [note for note in notes(load_history([measure("aaaa111", 1), measure("bbbb222", 2, alike)])) if "together" in note]
+    assert said == []  # fewer than 5 on either number of threads
+    names = ["naive_omp", "symmetric_omp", "locks_omp", "copies_omp", "naive_tbb"]
+    alike = dict.fromkeys(names, 1.3)
+    h = load_history([measure("aaaa111", 3, backends=names), measure("bbbb222", 4, alike, backends=names)])
+    (said,) = [note for note in notes(h) if "together" in note]
+    assert said.endswith("would tell: dam_break 3D dx=0.00594 on 2 threads (node, bbbb222): 5 points by 0.77")
+
+
 def test_points_on_a_page_lie_where_the_ratios_say(measure):
-    from pairsum_results.history_report import HEIGHT, TOP, sections
     h = load_history([measure("aaaa111", 1), measure("bbbb222", 2, {"naive": 2}), measure("cccc333", 3, {"naive": 1})])
     panel = sections(h)[0]["panels"][0]
     first, slow, back = panel["lines"][0]["dots"]
