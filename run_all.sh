@@ -21,7 +21,7 @@ installation.
   --jobs N         processes of the build (default: what cores and memory allow)
   --limit SECONDS  time after the installation (default: 900; with --quick 120)
 
-PYTHON names the Python that draws (default: /usr/bin/python3; needs numpy, matplotlib, jinja2).
+PYTHON names the Python that reports (default: /usr/bin/python3; needs pandas, scipy, matplotlib, jinja2).
 Exit code: 0; 1 a verification failed; 2 bad input; 3 something needed is not installed; 4 nothing was
 measured; 130 interrupted; else that of the step that failed. docs/running.md says more.
 TEXT
@@ -80,7 +80,7 @@ if $install; then
 else
   say "packages: not looked at (--no-install)"
 fi
-choose_python numpy matplotlib jinja2 || exit
+choose_python pandas scipy matplotlib jinja2 || exit
 for tool in cmake git; do
   command -v "$tool" >/dev/null || stop "$exit_missing" "$tool is not installed (run without --no-install)"
 done
@@ -161,16 +161,10 @@ fi
 # ---- tables, figures and page: one folder per study, named like its rows
 mapfile -t found < <(written)
 ((${#found[@]} > 0)) || stop 4 "nothing was measured within $limit s (a larger --limit helps)"
-heading "tables"
+heading "tables, figures and report.html"
+export PYTHON
 for file in "${found[@]}"; do
   step "the report" "$program" report "$file"
-done
-heading "figures and report.html"
-export PYTHONDONTWRITEBYTECODE=1
-for file in "${found[@]}"; do
-  folder=${file%.jsonl}
-  step "drawing the figures" "$PYTHON" plots/plot.py "$folder/summary.json" --out "$folder"
-  step "making the page" "$PYTHON" plots/report.py "$folder/summary.json" --out "$folder/report.html"
 done
 
 heading "done"

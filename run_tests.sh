@@ -19,8 +19,8 @@ summary, the exit code is ctest's (0: all passed).
   --jobs N         processes of the build, and tests at a time (default: what cores and memory allow)
   --limit SECONDS  after so long no test goes on, and those left count as failed (default: 4500)
 
-PYTHON names the Python of the tests (default: /usr/bin/python3; needs pytest, jsonschema, numpy, matplotlib,
-jinja2, selenium).
+PYTHON names the Python of the tests (default: /usr/bin/python3; needs pytest, jsonschema, pandas, scipy,
+matplotlib, jinja2, selenium).
 Exit code also: 2 bad input; 3 something needed is not installed; that of the build if it fails.
 TEXT
 }
@@ -55,7 +55,7 @@ if $install; then
 else
   say "packages: not looked at (--no-install)"
 fi
-choose_python pytest jsonschema numpy matplotlib jinja2 selenium || exit
+choose_python pytest jsonschema pandas scipy matplotlib jinja2 selenium || exit
 command -v cmake >/dev/null || stop "$exit_missing" "cmake is not installed (run without --no-install)"
 
 heading "build"

@@ -13,11 +13,14 @@ import re
 import sys
 import textwrap
 
+import matplotlib
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 
-import style
+from pairsum_results.figures.style import INK, Look, applied
+
+TEXT, SMALL_TEXT, TITLE = 9.5, 8.5, 13  # points
 
 #: Fills of neighbouring units: Okabe-Ito without yellow and black.
 FILLS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00")
@@ -111,21 +114,22 @@ def main(arguments=None):
     if missing:
         print(f"strategy_pictures: no units, or no words, for {', '.join(missing)}", file=sys.stderr)
         return 2
-    style.apply()
     for folder in filter(None, (options.out, options.png)):
         folder.mkdir(parents=True, exist_ok=True)
-    for name in names:
-        figure = draw(name, data[name])
-        (options.out / f"{name}.svg").write_text(svg(figure), encoding="utf-8")
-        if options.png:
-            figure.savefig(options.png / f"{name}.png", dpi=90)
+    with applied(Look()):
+        for name in names:
+            figure = draw(name, data[name])
+            (options.out / f"{name}.svg").write_text(svg(figure), encoding="utf-8")
+            if options.png:
+                figure.savefig(options.png / f"{name}.png", dpi=90)
     return 0
 
 
 def svg(figure):
     """Return the figure as SVG, with two decimals: a hundredth of a point is enough."""
     stream = io.StringIO()
-    figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
+    with matplotlib.rc_context({"svg.hashsalt": "pairsum"}):
+        figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     return re.sub(r"-?\d+\.\d{3,}", lambda number: f"{float(number[0]):.2f}".rstrip("0").rstrip("."), stream.getvalue())
 
 
@@ -238,7 +242,7 @@ class Page:
             fill_cells(axes, cells, facecolor=shade, alpha=LIGHT, linewidth=0, zorder=1.5)
         for shade, cells in dark.items():
             fill_cells(axes, cells, facecolor=shade, alpha=0.6 if "reads" in units[0] else 0.95, linewidth=0, zorder=1.4 if overlapping else 1.6)
-        draw_lines(axes, edges, edgecolor=style.INK, linewidth=1.3 if large else 0.7 / self.world["parts"], zorder=3, capstyle="projecting")
+        draw_lines(axes, edges, edgecolor=INK, linewidth=1.3 if large else 0.7 / self.world["parts"], zorder=3, capstyle="projecting")
         hatched, locked = set(), {}
         if overlapping:
             hatched = {cell for cell, k in counts.items() if k > 1}
@@ -252,12 +256,12 @@ class Page:
                 hatched |= {c for c in inside if c[1] == border}
                 locked[lock] = border
         for lock, layer in locked.items():
-            axes.text(self.n + 0.15, layer + 0.5, f"lock {lock}", fontsize=style.SMALL, va="center")
+            axes.text(self.n + 0.15, layer + 0.5, f"lock {lock}", fontsize=SMALL_TEXT, va="center")
         if hatched:
             fill_cells(axes, hatched, facecolor="none", edgecolor=SHARED, hatch="////", linewidth=0, zorder=2.5)
         if units and "reads" in units[0]:
             for k in self.readers(units):
-                draw_lines(axes, outline({tuple(c) for c in units[k]["reads"]}), edgecolor=style.INK, linewidth=2.6,
+                draw_lines(axes, outline({tuple(c) for c in units[k]["reads"]}), edgecolor=INK, linewidth=2.6,
                            linestyle=(0, (2, 1)), zorder=4)
         self.grid(axes, large)
 
@@ -275,17 +279,17 @@ class Page:
             for unit in units:
                 cells = {tuple(cell) for cell in unit["own"]}
                 fill_cells(axes, cells, facecolor=FILLS[colour], alpha=0.55, linewidth=0, zorder=1.5)
-                draw_lines(axes, outline(cells), edgecolor=style.INK, linewidth=1.3, zorder=3)
+                draw_lines(axes, outline(cells), edgecolor=INK, linewidth=1.3, zorder=3)
                 centres.append((sum(c[0] for c in cells) / len(cells) + 0.5, sum(c[1] for c in cells) / len(cells) + 0.5, colour))
         for a, b in world["edges"]:
             (x, y, _), (x2, y2, _) = centres[a], centres[b]
             back = 0.62 / ((x2 - x) ** 2 + (y2 - y) ** 2) ** 0.5
             axes.annotate("", (x2 - back * (x2 - x), y2 - back * (y2 - y)), (x + back * (x2 - x), y + back * (y2 - y)), zorder=4,
-                          arrowprops={"arrowstyle": "-|>", "color": style.INK, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0,
+                          arrowprops={"arrowstyle": "-|>", "color": INK, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0,
                                       "mutation_scale": 8})
         for x, y, colour in centres:
-            axes.text(x, y, str(colour), ha="center", va="center", fontsize=style.SIZE, weight="bold", zorder=6,
-                      bbox={"boxstyle": "circle,pad=0.22", "facecolor": "white", "edgecolor": style.INK, "linewidth": 0.8})
+            axes.text(x, y, str(colour), ha="center", va="center", fontsize=TEXT, weight="bold", zorder=6,
+                      bbox={"boxstyle": "circle,pad=0.22", "facecolor": "white", "edgecolor": INK, "linewidth": 0.8})
         self.grid(axes, True)
 
     def grid(self, axes, large):
@@ -310,27 +314,27 @@ class Page:
         above, below = 0.95, 0.62 + 0.175 * len(lines) + 0.18
         height = above + self.height + below
         self.figure = figure = Figure(figsize=(width, height))
-        figure.text(0.25 / width, 1 - 0.24 / height, self.name.replace("_seam", " at a seam"), fontsize=style.TITLE, weight="bold",
+        figure.text(0.25 / width, 1 - 0.24 / height, self.name.replace("_seam", " at a seam"), fontsize=TITLE, weight="bold",
                     va="center")
-        figure.text(0.25 / width, 1 - 0.50 / height, self.title, fontsize=style.SIZE, va="center", color=style.INK)
+        figure.text(0.25 / width, 1 - 0.50 / height, self.title, fontsize=TEXT, va="center", color=INK)
         for left, top, size, title, painter in self.panels:
             axes = figure.add_axes([(0.25 + left) / width, 1 - (above + top + size) / height, size / width, size / height])
             painter(axes)
-            axes.text(0, self.n + 0.25 * self.n / (10 * size), title, fontsize=style.SIZE - 0.5 if size > 2 else style.SMALL - 0.5,
+            axes.text(0, self.n + 0.25 * self.n / (10 * size), title, fontsize=TEXT - 0.5 if size > 2 else SMALL_TEXT - 0.5,
                       va="bottom", weight="bold" if size > 2 else "normal")
         shade = FILLS[0]
-        entries = [Patch(facecolor=shade, alpha=0.95, edgecolor=style.INK, label=base)]
+        entries = [Patch(facecolor=shade, alpha=0.95, edgecolor=INK, label=base)]
         if rest:
-            entries.append(Patch(facecolor=shade, alpha=LIGHT, edgecolor=style.INK, label=rest))
+            entries.append(Patch(facecolor=shade, alpha=LIGHT, edgecolor=INK, label=rest))
         if hatched:
             entries.append(Patch(facecolor="white", edgecolor=SHARED, hatch="////", label=hatched))
         if dashed:
-            entries.append(Patch(facecolor="white", edgecolor=style.INK, linestyle=(0, (3, 2)), label="read by one unit"))
-        legend = figure.legend(handles=entries, loc="upper left", ncol=len(entries), frameon=False, fontsize=style.SMALL,
+            entries.append(Patch(facecolor="white", edgecolor=INK, linestyle=(0, (3, 2)), label="read by one unit"))
+        legend = figure.legend(handles=entries, loc="upper left", ncol=len(entries), frameon=False, fontsize=SMALL_TEXT,
                                bbox_to_anchor=(0.16 / width, (below - 0.10) / height), borderpad=0, columnspacing=1.4, handlelength=1.4)
         legend.set_in_layout(False)
         for k, line in enumerate(lines):
-            figure.text(0.25 / width, (below - 0.50 - 0.175 * k) / height, line, fontsize=style.SMALL, va="center", color=style.INK)
+            figure.text(0.25 / width, (below - 0.50 - 0.175 * k) / height, line, fontsize=SMALL_TEXT, va="center", color=INK)
 
 
 def touched(unit):

@@ -14,8 +14,8 @@ void add_list_command(CLI::App& app, action& chosen);
 void add_verify_command(CLI::App& app, action& chosen);
 void add_run_command(CLI::App& app, action& chosen);
 void add_worker_command(CLI::App& app, action& chosen);
-void add_compare_command(CLI::App& app, action& chosen);
 void add_tune_command(CLI::App& app, action& chosen);
-void add_report_command(CLI::App& app, action& chosen);
+/// report, compare and history.
+void add_results_commands(CLI::App& app, action& chosen);
 
 }  // namespace pairsum::harness

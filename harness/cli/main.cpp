@@ -22,9 +22,10 @@ constexpr const char* examples =
     "  pairsum run quick                                     a small study of everything, about a minute\n"
     "  pairsum run --dx 0.02 --backend naive_omp,symmetric_omp --M 6,7 --threads 1,2\n"
     "  pairsum tune --dx 0.02                                what is fastest for a case, in a minute\n"
-    "  pairsum report results/run                            tables, CSV and summary.json of what was measured\n"
+    "  pairsum report results/run                            tables, figures and a page of what was measured\n"
     "  pairsum compare naive_omp symmetric_omp --in results  which is faster, and how sure is that\n"
-    "Exit codes: 0 fine, 1 a verification failed, 2 bad input, 130 interrupted.";
+    "  pairsum history results                               did anything get slower from revision to revision\n"
+    "Exit codes: 0 fine, 1 a verification failed or something got slower, 2 bad input, 130 interrupted.";
 
 int run_program(int argc, char** argv) {
   CLI::App app(about, "pairsum");
@@ -37,8 +38,7 @@ int run_program(int argc, char** argv) {
   pairsum::harness::add_run_command(app, chosen);
   pairsum::harness::add_worker_command(app, chosen);
   pairsum::harness::add_tune_command(app, chosen);
-  pairsum::harness::add_report_command(app, chosen);
-  pairsum::harness::add_compare_command(app, chosen);
+  pairsum::harness::add_results_commands(app, chosen);
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> commands;
     for (const CLI::App* c : app.get_subcommands({}))

@@ -17,7 +17,7 @@
 #include "harness/plan/levels.hpp"
 #include "harness/plan/variants.hpp"
 #include "harness/plugin/plugins.hpp"
-#include "harness/report/whole_file.hpp"
+#include "harness/rows/whole_file.hpp"
 #include "harness/run/interrupt.hpp"
 #include "harness/tune/profile_json.hpp"
 #include "harness/tune/tune_text.hpp"

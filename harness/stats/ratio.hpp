@@ -14,7 +14,7 @@
 namespace pairsum::harness {
 
 /// A ratio base/other with its interval and its p-value against a ratio of 1; both are empty with too few values.
-/// `pairs` is 0 if it was not paired.
+/// `pairs` is 0 if there were none.
 struct ratio_estimate {
   double value = 0;
   std::optional<interval> bounds;
@@ -56,7 +56,7 @@ inline void add_student_t(ratio_estimate& r, double log_ratio, double standard_e
 /// Comm. ACM 29 (1986) 218), which does not depend on which of the two is the base; interval and p-value
 /// are Student's t on the log ratios, n - 1 degrees of freedom, at `level`, and need 3 pairs. Claims: exact if the log
 /// ratios are independent and normal; nearly so if their distribution is symmetric; the interval is too narrow if they
-/// are few and skewed (tests/stats/test_coverage.cpp has figures). Throws pairsum::error for spans that are empty or of
+/// are few and skewed (docs/statistics.md has figures). Throws pairsum::error for spans that are empty or of
 /// different length, for values that are not positive and finite and for a level outside (0, 1).
 inline ratio_estimate paired_ratio(std::span<const double> base, std::span<const double> other, double level = 0.95) {
   check_level(level);
@@ -71,23 +71,6 @@ inline ratio_estimate paired_ratio(std::span<const double> base, std::span<const
   if (logs.size() < fewest_for_ratio) return r;
   const double n = static_cast<double>(logs.size());
   detail::add_student_t(r, log_ratio, std::sqrt(sample_variance(logs) / n), n - 1, level);
-  return r;
-}
-
-/// The ratio of values that were not measured together, as of two files: the ratio of their geometric means; interval
-/// and p-value are Welch's t on the logarithms (Welch, Biometrika 34 (1947) 28), whose spread and number may differ,
-/// and need 3 values each. What disturbed the two differently is in the ratio, and no interval shows it. Throws
-/// pairsum::error for empty spans, values that are not positive and finite and a level outside (0, 1).
-inline ratio_estimate unpaired_ratio(std::span<const double> base, std::span<const double> other, double level = 0.95) {
-  check_level(level);
-  const std::vector<double> base_logs = detail::logs_of(base), other_logs = detail::logs_of(other);
-  const double log_ratio = mean(base_logs) - mean(other_logs);
-  ratio_estimate r{std::exp(log_ratio), {}, 0, {}};
-  if (base.size() < fewest_for_ratio || other.size() < fewest_for_ratio) return r;
-  const double n = static_cast<double>(base.size()), m = static_cast<double>(other.size());
-  const double a = sample_variance(base_logs) / n, b = sample_variance(other_logs) / m;
-  const double freedom = (a + b) * (a + b) / (a * a / (n - 1) + b * b / (m - 1));  // Welch-Satterthwaite
-  detail::add_student_t(r, log_ratio, std::sqrt(a + b), freedom, level);
   return r;
 }
 

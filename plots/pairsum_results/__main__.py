@@ -6,9 +6,15 @@ import sys
 from .rows import PHASES, ResultsError
 
 
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str):
+        """One line, as the rest of pairsum has it."""
+        self.exit(2, f"pairsum: {message} (see {self.prog} --help)\n")
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Run a program; return its exit code: 0, 1 if the history found something slower, 2 with one line on stderr."""
-    parser = argparse.ArgumentParser(prog="pairsum")
+    parser = _Parser(prog="pairsum")
     programs = parser.add_subparsers(required=True, metavar="PROGRAM")
     _report_program(programs)
     _compare_program(programs)
@@ -23,12 +29,17 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _report_program(programs) -> None:
     program = programs.add_parser(
-        "report", help="tables and summary.json from rows files", description="Tables (text, Markdown, CSV) and "
-        "summary.json from rows files. Rows that failed their verification never enter a table, nor do rounds that "
-        "were cut.")
+        "report", help="tables, figures and a page from rows files", description="Tables (text, Markdown, CSV), "
+        "summary.json, figures and one page, report.html, from rows files. Rows that failed their verification never "
+        "enter a table, nor do rounds that were cut.")
     program.add_argument("inputs", nargs="+", metavar="FILE", help="rows files, or folders of them")
     program.add_argument("--out", metavar="DIR", type=pathlib.Path,
                          help="folder for the files (default: named like the rows file, beside it)")
+    program.add_argument("--tables", action="store_true", help="tables, CSV and summary.json alone: no figures, no page")
+    program.add_argument("--beside", metavar="FILE", nargs="+", default=[],
+                         help="rows files of other machines, each beside the first on the page")
+    program.add_argument("--paper", action="store_true",
+                         help="figures for print (PDF, 84 mm wide), LaTeX tables and a paragraph of methods, in paper/")
     program.add_argument("--allow-mixed", action="store_true",
                          help="compare rows of different machines or builds nevertheless")
     program.set_defaults(run=_report)
@@ -39,8 +50,21 @@ def _report(options: argparse.Namespace) -> None:
 
     first = pathlib.Path(options.inputs[0])
     folder = options.out or (first if first.is_dir() else first.with_suffix(""))
-    print(summary.write(report(load(options.inputs, options.allow_mixed)), folder), end="")
+    said = report(load(options.inputs, options.allow_mixed))
+    others = [report(load([path], options.allow_mixed)) for path in options.beside]
+    print(summary.write(said, folder), end="", flush=True)
     print(f"summary: {folder / 'summary.json'}")
+    if options.tables:
+        return
+    from . import figures, page, paper
+
+    drawn = figures.draw_all(said, folder)
+    print(f"figures: {len(drawn)} files, {folder}/*.svg and *.png")
+    if options.paper:
+        paper.write(said, folder / "paper")
+        print(f"paper:   {folder / 'paper'}")
+    page.write([said, *others], folder / "report.html")
+    print(f"page:    {folder / 'report.html'}")
 
 
 def _compare_program(programs) -> None:

@@ -116,16 +116,16 @@ def test_report_refuses_foreign_cut_missing_and_empty(pairsum, rows, tmp_path):
     summary = tmp_path / "out" / "summary.json"
     for content in [b"a,b\n1,2\n", b'{"schema":"other"}\n', whole[:-30], b""]:
         rows.write_bytes(content)
-        assert refused(pairsum("report", rows, "--out", summary.parent), rows.name)
+        assert refused(pairsum("report", "--tables", rows, "--out", summary.parent), rows.name)
         assert not summary.exists()
-    assert refused(pairsum("report", tmp_path / "missing.jsonl"), "missing.jsonl")
+    assert refused(pairsum("report", "--tables", tmp_path / "missing.jsonl"), "missing.jsonl")
     empty = tmp_path / "empty"
     empty.mkdir()
-    assert refused(pairsum("report", empty), "empty")
+    assert refused(pairsum("report", "--tables", empty), "empty")
 
 
 def test_report_into_an_unwritable_folder(pairsum, rows):
-    assert refused(pairsum("report", rows, "--out", "/proc/nope"), "/proc/nope")
+    assert refused(pairsum("report", "--tables", rows, "--out", "/proc/nope"), "/proc/nope")
 
 
 def test_report_names_line_and_key(pairsum, rows):
@@ -133,7 +133,7 @@ def test_report_names_line_and_key(pairsum, rows):
     at = next(k for k, line in enumerate(lines) if '"sum_s":' in line)
     lines[at] = lines[at].replace('"sum_s":', '"sum_seconds":')
     rows.write_text("\n".join(lines) + "\n")
-    assert refused(pairsum("report", rows), f":{at + 1}:", "sum_s")
+    assert refused(pairsum("report", "--tables", rows), f":{at + 1}:", "sum_s")
 
 
 def test_bench_refuses(pairsum):

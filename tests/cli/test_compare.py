@@ -24,7 +24,7 @@ def test_compare_backends(pairsum, measured):
     done = pairsum("compare", "naive", "symmetric", "--in", measured / "one.jsonl", "--allow-mixed")
     assert done.returncode == 0, done.stderr
     assert "dam_break rest dx=0.08 M=3 threads=1" in done.stdout and "Of 1 comparison B is faster in " in done.stdout
-    ratio, low, high = map(float, re.search(r"([0-9.]+)  \[([0-9.]+), ([0-9.]+)\]", done.stdout).groups())
+    ratio, low, high = map(float, re.search(r"([0-9.]+) +\[([0-9.]+), ([0-9.]+)\]", done.stdout).groups())
     assert low <= ratio <= high
     total = pairsum("compare", "naive", "symmetric", "--in", measured / "one.jsonl", "--phase", "total", "--allow-mixed")
     assert total.returncode == 0 and total.stdout != done.stdout

@@ -56,7 +56,7 @@ def test_version_names_revision_compiler_and_flags(pairsum):
 def test_help_teaches(pairsum):
     assert "pairsum run" in pairsum("--help").stdout
     assert "worker" not in pairsum("--help").stdout
-    for command in ["run", "tune", "verify", "report", "compare", "list"]:
+    for command in ["run", "tune", "verify", "report", "compare", "history", "list"]:
         done = pairsum(command, "--help")
         assert done.returncode == 0 and len(done.stdout) > 200
 
@@ -105,16 +105,18 @@ def test_default_rows_path_names_study_host_time_and_revision(pairsum, tmp_path)
     assert path.name.startswith(os.uname().nodename + "-2") and path.suffix == ".jsonl"
 
 
-def test_report_writes_summary_and_tables(pairsum, tmp_path):
+def test_report_writes_summary_tables_figures_and_page(pairsum, tmp_path):
     rows, folder = tmp_path / "rows.jsonl", tmp_path / "deep" / "s"
     made = pairsum("run", *SMALL[:2], "--M", "6", *SMALL[4:], "--out", rows)  # the table compares with M = 6
     assert made.returncode == 0, made.stderr
     done = pairsum("report", rows, "--out", folder)
     assert done.returncode == 0, done.stderr
     summary = json.loads((folder / "summary.json").read_text())
-    assert summary["schema"] == "pairsum.summary/2" and summary["points"]
-    assert done.stdout.splitlines()[-1] == f"summary: {folder / 'summary.json'}"
-    assert "Algorithm speedup" in done.stdout and max(map(len, done.stdout.splitlines()[:-1])) <= 120
+    assert summary["schema"] == "pairsum.summary/3" and summary["points"]
+    assert done.stdout.splitlines()[-3] == f"summary: {folder / 'summary.json'}"
+    assert done.stdout.splitlines()[-1] == f"page:    {folder / 'report.html'}"
+    assert (folder / "report.html").read_text().startswith("<!") and list(folder.glob("*.svg"))
+    assert "Algorithm speedup" in done.stdout and max(map(len, done.stdout.splitlines()[:-3])) <= 120
     assert (folder / "tables.txt").read_text().strip() in done.stdout
     assert "Algorithm speedup" in (folder / "tables.md").read_text()
     for table in (folder / "csv").iterdir():
@@ -124,10 +126,10 @@ def test_report_writes_summary_and_tables(pairsum, tmp_path):
 
 
 def test_report_goes_beside_the_rows_by_default(pairsum, rows):
-    done = pairsum("report", rows)
+    done = pairsum("report", "--tables", rows)
     assert done.returncode == 0, done.stderr
     assert (rows.parent / "rows" / "summary.json").exists()
-    assert pairsum("report", rows.parent).returncode == 0  # a folder of rows: beside them
+    assert pairsum("report", "--tables", rows.parent).returncode == 0  # a folder of rows: beside them
     assert (rows.parent / "summary.json").exists()
 
 
@@ -212,7 +214,7 @@ def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
     assert schema_errors(out) == []
     for words in ["random_clustered 3D, H = 2 dx", f"double, {listed['interactions'][-1]}", "rk4, order shuffled"]:
         assert words in done.stdout
-    assert pairsum("report", out).returncode == 0
+    assert pairsum("report", "--tables", out).returncode == 0
 
 
 @pytest.mark.parametrize("case, dim", [("dam_break", 2), ("lattice", 1), ("random_uniform", 1), ("random_uniform", 2),
@@ -237,7 +239,7 @@ def test_interrupt_leaves_valid_rows(pairsum, tmp_path):
     assert process.returncode == 130
     assert "ns/pair" in printed
     assert schema_errors(out) == []
-    assert pairsum("report", out).returncode == 0
+    assert pairsum("report", "--tables", out).returncode == 0
 
 
 def test_bench_speaks_google_benchmark(pairsum):

@@ -10,9 +10,9 @@ command -v gcovr >/dev/null || {
 }
 cmake --preset coverage -S "$source" -B "$build"
 find "$build" -name '*.gcda' -delete
-cmake --build "$build" --parallel 2 --target test_kernels test_harness test_tune test_rows rows_example test_report test_stats pairsum \
+cmake --build "$build" --parallel 2 --target test_kernels test_harness test_tune test_rows rows_example stats_of pairsum \
   pairsum_bench
 ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel 2 \
-  --exclude-regex '^(layers|headers|tidy|plots|scripts|kernels_full_size|accuracy.*)$'
+  --exclude-regex '^(layers|headers|tidy|plots|results|scripts|kernels_full_size|accuracy.*)$'
 gcovr --root "$source" --object-directory "$build" --filter "$source/kernels/" --filter "$source/harness/" \
   --exclude-throw-branches --gcov-ignore-parse-errors --txt "$build/coverage.txt" --print-summary

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from conftest import BUILD, SOURCE
+from conftest import BUILD, SOURCE, call, must
 
 
 def traces(folder):
@@ -33,6 +33,17 @@ def test_every_header_is_there(prefix):
 @pytest.mark.parametrize("program", ["pairsum", "pairsum_bench"])
 def test_programs_are_there_if_they_are_built(prefix, program):
     assert (prefix / "bin" / program).exists() == (BUILD / "bin" / program).exists()
+
+
+def test_the_installed_program_reports_with_the_installed_package(prefix, tmp_path):
+    must(prefix / "bin/pairsum", "report", "--tables", SOURCE / "results/talk", "--out", tmp_path / "report")
+    assert (tmp_path / "report/tables.txt").read_text().startswith("On vm take ")
+    broken = tmp_path / "elsewhere/bin/pairsum"
+    broken.parent.mkdir(parents=True)
+    broken.write_bytes((prefix / "bin/pairsum").read_bytes())
+    broken.chmod(0o755)
+    done = call(broken, "report", SOURCE / "results/talk")
+    assert done.returncode == 2 and "has no package pairsum_results" in done.stdout
 
 
 PROJECT = """cmake_minimum_required(VERSION 3.25)

@@ -1,7 +1,4 @@
-"""The numbers that pairsum's C++ report gave for the committed rows, to 1e-9, and what it said of them.
-
-With PAIRSUM_GOLDEN=FOLDER, a folder of summaries that it made (FOLDER/*/summary.json), everything in these is compared;
-else what golden.json keeps of them.
+"""The numbers that another program, in C++, gave for the committed rows, to 1e-9, and what it said of them: golden.json.
 
 What differs, and why: rows of schema 2 do not state the backends' traits, nor the flops and bytes of the model. So
 "Does it scale as well?" (gathers against symmetric sums) and "How far is that from what the machine can do?" are not
@@ -9,27 +6,17 @@ answered from them.
 """
 import json
 import math
-import os
 import pathlib
 
 import pytest
 from conftest import ROOT
 
-import make_golden
 import pairsum_results as pr
 
 UNKNOWN = ("Does it scale as well?", "How far is that from what the machine can do?")
 
 
-def _golden():
-    folder = os.environ.get("PAIRSUM_GOLDEN")
-    if not folder:
-        return json.loads((pathlib.Path(__file__).parent / "golden.json").read_text())
-    summaries = [json.loads(path.read_text()) for path in sorted(pathlib.Path(folder).glob("*/summary.json"))]
-    return {summary["sources"][0]: make_golden.condensed(summary) for summary in summaries}
-
-
-GOLDEN = _golden()
+GOLDEN = json.loads((pathlib.Path(__file__).parent / "golden.json").read_text())
 
 
 def rows(table, *columns):
@@ -37,7 +24,7 @@ def rows(table, *columns):
 
 
 def condensed(report):
-    """The same lists of rows as make_golden's."""
+    """What golden.json has of a report."""
     r, points, bounds = report.results, report.points, ("ratio", "low", "high")
     backend = points["backend"]
     ladder = report.ladder.assign(base=report.ladder["base"].map(backend))

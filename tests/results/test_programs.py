@@ -28,7 +28,7 @@ def rows(tmp_path):
 
 def test_report_writes_what_it_prints_and_the_summary_keeps_its_schema(rows, tmp_path, capsys):
     path = rows([*made.talk(), (made.point("again_naive_omp"), 1.0)])
-    assert program.main(["report", path]) == 0
+    assert program.main(["report", "--tables", path]) == 0
     out, folder = capsys.readouterr().out, tmp_path / "talk/rows"
     assert out == (folder / "tables.txt").read_text() + f"summary: {folder / 'summary.json'}\n"
     assert out.startswith("On node take symmetric_omp with M = 6 and 2 threads: 2.00 times [2.00, 2.00]")
@@ -39,14 +39,14 @@ def test_report_writes_what_it_prints_and_the_summary_keeps_its_schema(rows, tmp
     points, rounds = pd.read_csv(folder / "csv/points.csv"), pd.read_csv(folder / "rounds.csv")
     assert len(rounds) == 6 * len(points) and set(rounds["host"]) == {"node"} and set(rounds["git"]) == {"abc1234"}
     assert rounds.groupby("point")["sum_s"].median().to_list() == pytest.approx(points["sum_s"].to_list(), rel=1e-12)
-    assert program.main(["report", rows([(made.point("naive"), 1.0)]), "--out", str(folder)]) == 0
+    assert program.main(["report", "--tables", rows([(made.point("naive"), 1.0)]), "--out", str(folder)]) == 0
     assert not (folder / "csv/algorithm_speedup.csv").exists()  # of the report before
     with open(folder / "csv/points.csv", encoding="utf-8") as stream:
         assert len(list(csv.reader(stream))) == 2
 
 
 def test_the_schema_of_the_summary_rejects(rows, tmp_path):
-    program.main(["report", rows(made.talk()), "--out", str(tmp_path)])
+    program.main(["report", "--tables", rows(made.talk()), "--out", str(tmp_path)])
     summary = json.loads((tmp_path / "summary.json").read_text())
     jsonschema.validate(summary, SCHEMA)
     for broken in ({"answer": 7}, {"caveats": None}, {"colour": "red"}, {"schema": "pairsum.summary/2"},
@@ -57,7 +57,7 @@ def test_the_schema_of_the_summary_rejects(rows, tmp_path):
 
 def test_the_schema_holds_for_the_committed_rows(tmp_path):
     for path in (ROOT / "results/self_test", ROOT / "results/vector"):
-        assert program.main(["report", str(path), "--out", str(tmp_path)]) == 0
+        assert program.main(["report", "--tables", str(path), "--out", str(tmp_path)]) == 0
         jsonschema.validate(json.loads((tmp_path / "summary.json").read_text()), SCHEMA)
 
 
@@ -157,3 +157,10 @@ def test_wrong_sides_are_refused_in_one_line(rows):
         assert says in str(caught.value)
     with pytest.raises(pr.ResultsError, match='unknown phase "foo"; valid: index, prepare'):
         compare_sides("naive", "symmetric", [path], "foo")
+
+
+def test_every_committed_summary_keeps_its_schema():
+    paths = sorted(ROOT.glob("results/*/*/summary.json"))
+    assert len(paths) > 5
+    for path in paths:
+        jsonschema.validate(json.loads(path.read_text()), SCHEMA)

@@ -16,7 +16,7 @@ shift
 STUB_ROOT=sudo exec "$@"
 """
 LINE = "apt-get install -y --no-install-recommends "
-ALL_PLOTS = "python3-numpy python3-matplotlib python3-jinja2"
+ALL_PLOTS = "python3-pandas python3-scipy python3-matplotlib python3-jinja2"
 
 
 @pytest.fixture
@@ -42,7 +42,7 @@ def packages(sandbox, groups):
 def test_the_groups_have_no_package_twice(sandbox):
     every = packages(sandbox, "build plots tests")
     assert len(every) == len(set(every))
-    assert {"g++", "python3-numpy", "python3-jinja2", "clang-14", "chromium"} <= set(every)
+    assert {"g++", "python3-scipy", "python3-jinja2", "clang-14", "chromium"} <= set(every)
 
 
 def test_nothing_is_done_if_all_are_installed(debian):
@@ -63,14 +63,14 @@ def test_root_installs_what_is_missing(debian):
 
 def test_a_user_who_may_sudo_installs_too(debian):
     done = ensure(debian, "plots", STUB_SUDO="1",
-                  STUB_INSTALLED="python3-numpy python3-jinja2")
+                  STUB_INSTALLED="python3-pandas python3-scipy python3-jinja2")
     assert done.returncode == 0
     assert "--no-install-recommends python3-matplotlib as sudo nonint" in debian.calls()[-1]
 
 
 def test_another_user_is_told_the_line(debian):
     done = ensure(debian, "plots",
-                  STUB_INSTALLED="python3-numpy python3-matplotlib-data python3-jinja2")
+                  STUB_INSTALLED="python3-pandas python3-scipy python3-matplotlib-data python3-jinja2")
     assert done.returncode == 3
     assert done.stderr.splitlines()[-1].strip() == LINE + "python3-matplotlib"
     assert debian.calls() == []

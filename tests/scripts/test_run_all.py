@@ -33,7 +33,7 @@ def budgets(sandbox):
 def test_the_full_run(sandbox):
     done = sandbox.run("./run_all.sh", "--no-install", "--jobs", "3", OMP_NUM_THREADS="1")
     assert done.returncode == 0, done.stderr
-    calls = sandbox.calls("cmake") + sandbox.calls("pairsum") + sandbox.calls("python plots")
+    calls = sandbox.calls("cmake") + sandbox.calls("pairsum")
     assert calls[0] == "cmake --preset study"
     assert calls[1] == "cmake --build --preset study --target pairsum --parallel 3"
     assert calls[2].startswith("pairsum verify ")
@@ -44,9 +44,7 @@ def test_the_full_run(sandbox):
     stem = os.path.basename(outs[0])[:-len(".jsonl")]
     assert re.fullmatch(r"\S+-\d{8}T\d{6}Z-(nogit|[0-9a-f]+)(-dirty)?", stem)
     folders = [f"results/{study}/{stem}" for study in ("talk", "m_sweep")]  # one report per rows file
-    assert calls[5:] == [f"pairsum report {folder}.jsonl" for folder in folders] + [
-        f"python plots/{made} {folder}/summary.json --out {folder}{page}" for folder in folders
-        for made, page in (("plot.py", ""), ("report.py", "/report.html"))]
+    assert calls[5:] == [f"pairsum report {folder}.jsonl" for folder in folders]
     for text in ("a table", f"results/talk/{stem}/tables.txt", f"results/talk/{stem}/summary.json",
                  f"results/talk/{stem}/*.svg", f"results/m_sweep/{stem}.jsonl"):
         assert text in done.stdout
@@ -124,13 +122,6 @@ def test_a_failing_build_stops(sandbox):
     assert sandbox.calls("pairsum") == []
     done = sandbox.run("./run_all.sh", "--no-install", STUB_NO_PROGRAM="1")
     assert done.returncode == 4
-
-
-def test_a_failing_page_stops(sandbox):
-    done = sandbox.run("./run_all.sh", "--no-install", "--quick", STUB_PYTHON_FAILS="plots/report.py")
-    assert done.returncode == 6
-    assert "making the page failed (exit 6); finished rounds are kept in results/quick/" in done.stderr
-    assert "to go on" not in done.stderr
 
 
 def test_with_too_little_time_only_the_first_study_is_measured(sandbox):

@@ -1,0 +1,111 @@
+"""Where time goes, as stacked bars: all backends per pair, the phases of a step, threads waiting at barriers."""
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from ..load import EVALUATION
+from ..model import thread_times
+from ..reports import Report
+from . import style
+from .parts import Drawing, digits, fastest, named, usual
+from .sheet import Panel, beside, boxes, few, name_rows
+
+#: Parts of an evaluation in their order in time, and how far each is shaded towards white, or below 0 towards black.
+_PARTS = {"prepare_s": 0.6, "zero_s": 0.85, "sum_s": 0.0, "reduce_s": -0.45}
+
+
+def _ladder(report: Report) -> list[Panel]:
+    points = report.points[report.points["pairs_interacting"] > 0].dropna(subset=[EVALUATION])
+    nanoseconds = points[[EVALUATION, *_PARTS]].mul(1e9 / points["pairs_interacting"], axis=0)
+    columns = [(title, nanoseconds.loc[some.index], named(some), some["backend"])
+               for title, some in fastest(points, EVALUATION)] if len(points) else []
+    right = max((table[list(_PARTS)].sum(axis=1).max() for _, table, *_ in columns), default=0)
+
+    def paint(axes: Axes, table: pd.DataFrame, names: list[str], backends: pd.Series) -> None:
+        at, left = name_rows(axes, names), np.zeros(len(table))
+        for part, towards in _PARTS.items():
+            boxes(axes, at, left, table[part], label=part, edgecolor=style.INK, linewidth=0.5,
+                  facecolor=[style.shade(style.colour(backend), towards) for backend in backends])
+            left = left + table[part].to_numpy()
+        beside(axes, left, at, [f"{digits(a)} ({digits(s)})" for a, s in zip(table[EVALUATION], table["sum_s"])])
+        axes.set(xlim=(0, 1.02 * right), xlabel="time per interacting pair [ns]")
+
+    key = [Patch(label=part.removesuffix("_s"), facecolor=style.shade(style.MUTED, towards), edgecolor=style.INK, linewidth=0.5)
+           for part, towards in _PARTS.items()]
+    return [Panel(title, lambda axes, how=how: paint(axes, *how), len(how[0]), key) for title, *how in columns]
+
+
+LADDER = Drawing(
+    "ladder", "All backends", "Time per interacting pair of every backend at its best grid, M and granularity, the fastest "
+    "on top. A bar stacks prepare, zero, sum and reduce; the number is all of it, in brackets the sum alone.",
+    "a verified point", _ladder)
+
+
+def _phase_split(report: Report) -> list[Panel]:
+    points = report.points.dropna(subset=["total_s"])
+    columns = []
+    for title, best in fastest(points, "total_s") if len(points) else []:
+        pairs = points.set_index(["backend", "threads"]).index
+        own = points[pairs.isin(best.set_index(["backend", "threads"]).index)]
+        columns.append((title, usual(own, "total_s").sort_values("total_s")))
+    right = max((own["total_s"].max() for _, own in columns), default=0) * 1e3
+
+    def paint(axes: Axes, own: pd.DataFrame) -> None:
+        at, left = name_rows(axes, named(own)), np.zeros(len(own))
+        for phase, colour in style.PHASES.items():
+            length = 1e3 * own[phase].fillna(0).to_numpy()
+            boxes(axes, at, left, length, color=colour, linewidth=0, label=phase)
+            left = left + length
+        axes.plot(1e3 * own["total_s"], at, color=style.INK, marker="|", markersize=9, markeredgewidth=1.6, linestyle="",
+                  label="total_s")
+        few(axes.xaxis)
+        axes.set(xlim=(0, 1.02 * right), xlabel="time per step [ms]")
+
+    key = [Patch(facecolor=colour, label=phase.removesuffix("_s")) for phase, colour in style.PHASES.items()]
+    key.append(Line2D([], [], color=style.INK, marker="|", linestyle="", markersize=9, markeredgewidth=1.6,
+                      label="whole step"))
+    return [Panel(title, lambda axes, own=own: paint(axes, own), len(own), key) for title, own in columns]
+
+
+PHASE_SPLIT = Drawing(
+    "phase_split", "Phases of a step", "Where the time of a step goes: medians of the phases, stacked; the black mark is the "
+    "whole step. Each backend with its best granularity and block, on one thread and on its most.", "phases", _phase_split)
+
+
+def _barrier_wait(report: Report) -> list[Panel]:
+    points = usual(report.points[report.points["wait_share"].notna() & (report.points["threads"] > 1)], "sum_s")
+    points = points[points["threads"] == points.groupby("backend")["threads"].transform("max")].sort_values("wait_share")
+    if points.empty:
+        return []
+    threads = 1e3 * thread_times(report.results).set_index(["point", "thread"])
+    threads = threads[threads.index.isin(points.index, level=0)]
+    middle = (len(points) + 1) // 2 if len(points) > 8 else len(points)
+
+    def paint(axes: Axes, own: pd.DataFrame) -> None:
+        for up, (point, p) in zip(name_rows(axes, named(own)), own.iterrows()):
+            each, colour = threads.loc[point], style.colour(p["backend"])
+            height = 0.8 / len(each)
+            at = up - 0.4 + height * (np.arange(len(each)) + 0.5)
+            boxes(axes, at, 0, each["busy_s"], 0.9 * height, color=colour, linewidth=0, label="busy")
+            boxes(axes, at, each["busy_s"], each["waiting_s"], 0.9 * height, label="wait", **_wait(colour))
+            beside(axes, [each.sum(axis=1).max()], [up], [f"{100 * p['wait_share']:.2g} %"])
+        few(axes.xaxis)
+        axes.set(xlim=(0, 1.02 * threads.sum(axis=1).max()), xlabel="time per sum [ms]")
+
+    key = [Patch(label="busy (all passes)", facecolor=style.MUTED), Patch(label="waiting at barriers", **_wait(style.MUTED))]
+    rows = 1.2 + 0.1 * min(points["threads"].max(), 32)
+    parts = [own for own in (points[:middle], points[middle:]) if len(own)]
+    titles = [""] if len(parts) == 1 else ["least waiting", "most waiting"]
+    return [Panel(title, lambda axes, own=own: paint(axes, own), rows * len(own), key) for title, own in zip(titles, parts)]
+
+
+def _wait(colour: str) -> dict:
+    return {"facecolor": style.shade(colour, 0.75), "edgecolor": colour, "linewidth": 0.6}
+
+
+BARRIER_WAIT = Drawing(
+    "barrier_wait", "Waiting at barriers", "One bar per thread of every backend on its most threads: time spent summing "
+    "(solid) and waiting for other threads (light), all passes; the number is the share of the wait.",
+    "barrier waits on 2 or more threads", _barrier_wait)

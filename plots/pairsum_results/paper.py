@@ -1,0 +1,90 @@
+"""For a paper: figures as PDF for a column of 84 mm, tables and a paragraph of methods in LaTeX."""
+import pathlib
+import re
+
+import pandas as pd
+
+from .figures import ALL, PAPER, draw, on_all_cores, parts, rendered
+from .page import every_table
+from .reports import Report
+from .stats import FEWEST_FOR_RATIO, LEVEL
+from .summary import write_file
+from .words import threads_words
+
+_HEAD = "% In the preamble: \\usepackage{booktabs}\n"
+
+
+def write(report: Report, folder: pathlib.Path) -> list[pathlib.Path]:
+    """Writes FIGURE.pdf (FIGURE-2.pdf for the second series), tables.tex and methods.tex, each whole or not at all; returns the
+    paths. Raises ResultsError."""
+    shown = parts(report)
+    tasks = [(f"{drawing.name}{f'-{k}' if k > 1 else ''}.pdf", drawing, part) for drawing in ALL
+             for k, (_, part) in enumerate(shown[drawing.each], 1)]
+
+    def pdf(task) -> bytes | None:
+        figure = draw(task[1], report, PAPER, [("", task[2])])
+        return figure and rendered(figure, "pdf", PAPER)
+
+    files = {name: content for (name, *_), content in zip(tasks, on_all_cores(pdf, tasks)) if content}
+    files |= {"tables.tex": latex_tables(report), "methods.tex": methods(report)}
+    for name, content in files.items():
+        write_file(folder / name, content)
+    return [folder / name for name in files]
+
+
+def escaped(text: str) -> str:
+    """Text as LaTeX."""
+    special = {"\\": r"\textbackslash{}", "^": r"\textasciicircum{}", "~": r"\textasciitilde{}", "<": r"\textless{}",
+               ">": r"\textgreater{}", "|": r"\textbar{}", '"': "''"}
+    return re.sub(r'[\\^~<>|"&%$#_{}]', lambda c: special.get(c[0], "\\" + c[0]), text)
+
+
+def latex_tables(report: Report) -> str:
+    """The tables of the report, each as a float as wide as the page."""
+    found = []
+    for world, table in every_table(report):
+        frame = pd.DataFrame(table.rows, columns=table.header).applymap(escaped).rename(columns=escaped)
+        caption = escaped(" ".join(f"{table.caption}{f' ({world})' if world else ''}.".split()))
+        found.append(frame.style.hide(axis="index").to_latex(
+            hrules=True, environment="table*", position="tbp", position_float="centering", caption=caption,
+            column_format="l" * table.left + "r" * (len(table.header) - table.left)))
+    return _HEAD + "\n".join(found)
+
+
+def methods(report: Report) -> str:
+    """A paragraph that states machine, build, particles, rounds and statistics."""
+    results, points = report.results, report.points
+    said = [_build(e) for e in results.environments.drop_duplicates("build").itertuples()]
+    for s in results.series.drop(columns=["seed", "environment", "build", "build_name"]).drop_duplicates().itertuples():
+        said.append(f"The case {s.case} ({s.dim}D, {s.state}, {s.order} order) has {s.n_fluid} fluid and {s.n_boundary} boundary "
+                    f"particles (dx = {s.dx:g}, H = {s.H:g}); interaction {s.interaction}, smoothing {s.smoothing}, integrator "
+                    f"{s.integrator}, {s.precision} precision.")
+    threads = sorted(set(points["threads"]))
+    said.append(f"{len(points)} points (backend, grid and parameters) were measured on "
+                + (threads_words(threads[0]) if len(threads) == 1 else f"{threads[0]} to {threads_words(threads[-1])}")
+                + f", each in {_counted(points['rounds'], 'round')} of "
+                f"{_counted(points['repetitions'], 'repetition')} of {_counted(points['steps'], 'step')}.")
+    others = results.closed["others_share"].max()
+    said.append("A round is a new process, in which the points of a part take turns; every result was verified against a "
+                f"reference before its time counted. Of {len(results.closed) + results.void_rounds} rounds {results.void_rounds} "
+                "were void" + (f"; other processes took at most {100 * others:.2g} % of the processor time of a round"
+                               if pd.notna(others) else "") + ".")
+    level = f"{100 * LEVEL:g} %"
+    said.append("The value of a point in a round is the mean over its steps and repetitions; times are medians over rounds with "
+                f"distribution-free intervals (order statistics) at {level} or more. Ratios are geometric means over the rounds "
+                f"that both points share, with Student's t intervals on the logarithms at {level} (from {FEWEST_FOR_RATIO} rounds "
+                "on; Welch's where no round is shared). Differences are called resolved if they pass Holm's test over all "
+                f"comparisons of a table at {100 - 100 * LEVEL:g} %.")
+    return "\n".join(map(escaped, said)) + "\n"
+
+
+def _build(e) -> str:
+    dirty = " with uncommitted changes" if e.dirty else ""
+    governor = f", governor {e.governor}" if isinstance(e.governor, str) else ""
+    return (f"Times were measured with pairsum at revision {e.git}{dirty}, built by {e.compiler} ({e.flags}), on {e.cpu} with "
+            f"{e.cores} cores ({e.os_kernel}{governor}); binding of threads: {e.binding}.")
+
+
+def _counted(values: pd.Series, what: str) -> str:
+    low, high = int(values.min()), int(values.max())
+    return f"{low if low == high else f'{low} to {high}'} {what}{'' if high == 1 else 's'}"

@@ -1,0 +1,256 @@
+"""What each figure draws equals the tables; no text lies on another; colours mean the same everywhere."""
+import pathlib
+
+import artists
+import made
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.figure import Figure
+
+import pairsum_results as pr
+from pairsum_results import figures
+from pairsum_results.figures import PAPER, Look, bars, over, ratios, roofline, strategies, style, threads
+
+PAGE = Look(titled=False)
+NARROW = Look(4.4, 1, titled=False)
+
+
+@pytest.fixture(scope="module")
+def full(tmp_path_factory):
+    """A report that fills every figure; not to be changed."""
+    return artists.report(tmp_path_factory.mktemp("full"), artists.everything())
+
+
+@pytest.fixture(scope="module")
+def two(tmp_path_factory):
+    """A report of one series on one and two threads."""
+    points = [point for point in made.talk()] + [(made.point("pair_list"), 0.7)]
+    rows = made.study(points, before=[made.environment(), made.peak(1, 1e9, 1e9), made.peak(2, 1.9e9, 1.2e9)])
+    return artists.report(tmp_path_factory.mktemp("two"), rows)
+
+
+def draw(drawing, report, look=PAGE):
+    figure = figures.draw(drawing, report, look)
+    assert figure is not None
+    return figure
+
+
+def first(drawing, report):
+    """The axes of the first panel."""
+    return draw(drawing, report).axes[0]
+
+
+def test_every_figure_can_be_drawn_and_says_what_it_needs(full, two):
+    assert all(figures.draw(d, full) for d in figures.ALL)
+    missing = [d for d in figures.ALL if figures.draw(d, two) is None]
+    assert {d.name for d in missing} == {"efficiency", "barrier_wait", "size_scaling", "granularity", "compilers", "self_test",
+                                         "strategy_worlds"}
+    assert all(d.needs for d in missing)
+
+
+def test_speedups_on_two_threads_are_rows_with_their_intervals(two):
+    axes, table = first(threads.SPEEDUP, two), two.speedup[two.speedup["threads"] == 2]
+    table = table.sort_values("ratio", ascending=False)
+    drawn = artists.dots(axes)
+    assert [x for x, _ in drawn] == pytest.approx(list(table["ratio"]))
+    assert [span for _, span in drawn] == [pytest.approx(span) for span in zip(table["low"], table["high"])]
+    assert sorted(artists.names(axes)) == sorted(table["backend"] + ", M=6")
+    grey = {line.get_label(): line.get_xdata()[0] for line in axes.lines}
+    assert grey == {"ideal": 2, "machine's flops": pytest.approx(1.9), "machine's bandwidth": pytest.approx(1.2)}
+    assert axes.child_axes[0].get_xlabel() == "efficiency: speedup / threads"
+
+
+@pytest.mark.parametrize("drawing, value", [(threads.SPEEDUP, "ratio"), (threads.EFFICIENCY, "efficiency")])
+def test_speedups_on_many_threads_are_lines(full, drawing, value):
+    table = full.speedup[(full.speedup["series"] == 0) & (full.speedup["M"] == 7)]
+    wanted = {backend: [(t, pytest.approx(v)) for t, v in zip(own["threads"], own[value])]
+              for backend, own in table.groupby("backend")}
+    (axes,) = [axes for title, axes in artists.panels(draw(drawing, full)).items() if "hashed_grid M=7" in title]
+    drawn = artists.lines(axes)
+    assert {name: drawn[name] for name in wanted} == wanted
+    assert [x for x, _ in drawn["ideal"]] == list(axes.get_xticks()) == [1, 2, 4, 8, 16]
+    assert axes.get_xscale() == "log"
+    assert ("machine's flops" in drawn) == (value == "ratio")
+    assert len(axes.containers) == (4 if value == "ratio" else 0)  # error bars
+
+
+def test_algorithm_speedups_name_their_base(two, full):
+    table = two.algorithm_speedup[two.algorithm_speedup["threads"] == 1].sort_values("ratio", ascending=False)
+    axes = first(threads.ALGORITHM_SPEEDUP, two)
+    assert [x for x, _ in artists.dots(axes)] == pytest.approx(list(table["ratio"]))
+    assert {"symmetric_omp, M=6 / naive_omp", "symmetric, M=6 / naive, M=7"} <= set(artists.names(axes))
+    titles = " ".join(artists.panels(draw(threads.ALGORITHM_SPEEDUP, full)))
+    assert "base naive_omp, M=7" in titles and "base naive_tbb" in titles
+
+
+def test_the_ladder_stacks_the_parts_of_each_backend_at_its_best_fastest_first(two):
+    axes, points = first(bars.LADDER, two), two.points[two.points["threads"] == 1]
+    best = points.sort_values("evaluation_s").drop_duplicates("backend")
+    assert [name.split(",")[0] for name in artists.names(axes)] == list(best["backend"])
+    left = np.zeros(len(best))
+    for part in ("prepare_s", "zero_s", "sum_s", "reduce_s"):
+        length = 1e9 * (best[part] / best["pairs_interacting"]).to_numpy()
+        assert np.array(artists.bars(axes, part)) == pytest.approx(np.stack([left, left + length], axis=1))
+        left += length
+    said = [text.get_text() for text in axes.texts]
+    assert [float(text.split()[0]) for text in said] == pytest.approx(
+        list(1e9 * best["evaluation_s"] / best["pairs_interacting"]), rel=6e-3)
+
+
+def test_phases_add_up(two):
+    axes = artists.panels(draw(bars.PHASE_SPLIT, two))["1 thread"]
+    points = two.points[two.points["threads"] == 1].sort_values("total_s")
+    assert len(artists.names(axes)) == len(points)
+    left = 0.0
+    for phase in pr.PHASES[:-1]:
+        drawn = np.array(artists.bars(axes, phase))
+        assert drawn[:, 0] == pytest.approx(np.full(len(points), left) if np.isscalar(left) else left)
+        assert drawn[:, 1] - drawn[:, 0] == pytest.approx(1e3 * points[phase].to_numpy())
+        left = drawn[:, 1]
+    assert [x for x, _ in artists.lines(axes)["total_s"]] == pytest.approx(list(1e3 * points["total_s"]))
+
+
+def test_waits_are_stacked_on_the_work_of_each_thread(full):
+    axes = first(bars.BARRIER_WAIT, full)
+    points = full.points[(full.points["series"] == 0) & (full.points["threads"] == 16)]
+    assert set(points["wait_share"].round(9)) == {0.25}
+    times, name = pr.thread_times(full.results).set_index("point"), artists.names(axes)[0]
+    (point,) = points.index[(points["backend"] == name.split(",")[0]) & (points["M"] == float(name.split("M=")[1][0]))]
+    busy, wait = (artists.bars(axes, label)[:16] for label in ("busy", "wait"))
+    assert [right for _, right in busy] == pytest.approx(list(1e3 * times.loc[point, "busy_s"]))
+    assert [b - a for a, b in wait] == pytest.approx(list(1e3 * times.loc[point, "waiting_s"]))
+    assert [a for a, _ in wait] == pytest.approx([right for _, right in busy])
+    assert {text.get_text() for text in axes.texts} == {"25 %"}
+
+
+def test_lines_over_m_are_the_points_and_coincide_once(full):
+    shown = artists.panels(draw(over.M_COMPARISON, full))
+    table = full.m_comparison[(full.m_comparison["series"] == 0) & (full.m_comparison["threads"] == 16)]
+    times = next(axes for title, axes in shown.items() if title.endswith("16 threads"))
+    for backend, own in table[table["granularity"].isin(["dynamic:32", "auto:32"]) & (table["block"] == "none")].groupby("backend"):
+        assert artists.lines(times)[backend] == [(m, pytest.approx(t)) for m, t in zip(own["M"], own["sum_s"])]
+    tests = next(axes for title, axes in shown.items() if title.endswith("candidate tests"))
+    assert list(artists.lines(tests)) == ["naive_omp, naive_tbb and 2 more"]
+
+
+def test_the_roofline_has_every_point_and_the_measured_roof(full):
+    axes = next(axes for title, axes in artists.panels(draw(roofline.ROOFLINE, full)).items() if title.endswith("16 threads"))
+    points = full.points[(full.points["series"] == 0) & (full.points["threads"] == 16)]
+    spots = sorted((x, y) for name, own in artists.lines(axes).items() if name != "roof" for x, y in own)
+    every = sorted(tuple(line.get_xydata()[0]) for line in axes.lines if line.get_label() != "roof")
+    assert set(spots) <= set(every) and len(every) == len(points)
+    assert [y for _, y in every] == pytest.approx(sorted(points["achieved_flops_per_s"] / 1e9))
+    (x0, y0), (x1, y1), (_, y2) = artists.lines(axes)["roof"]
+    assert y1 == y2 == pytest.approx(16**0.95) and y0 / x0 == pytest.approx(y1 / x1) == pytest.approx(2 * 16**0.5)
+
+
+def test_sizes_and_granularities_are_lines(full):
+    axes = next(axes for title, axes in artists.panels(draw(over.SIZE_SCALING, full)).items()
+                if title == "each at its most threads: time per sum")
+    best = full.points[(full.points["threads"] == 16) & (full.points["backend"] == "naive_omp")].groupby("n_fluid")["sum_s"].min()
+    assert artists.lines(axes)["naive_omp"] == [(190000, pytest.approx(best[100000])), (2014966, pytest.approx(best[1000000]))]
+    drawn = artists.lines(first(over.GRANULARITY, full))
+    assert [x for x, _ in drawn["dynamic"]] == [32, 64] and [x for x, _ in drawn["static"]] == [8, 64]
+    assert len({y for _, y in drawn["guided"]}) == 1
+
+
+@pytest.mark.parametrize("drawing, table", [(ratios.COMPILERS, "compiler_comparison"), (ratios.SELF_TEST, "self_test")])
+def test_ratios_are_dots_with_intervals_and_a_word(full, drawing, table):
+    axes, rows = first(drawing, full), full.tables[table]
+    drawn = artists.dots(axes)
+    assert sorted(x for x, _ in drawn) == pytest.approx(sorted(rows["ratio"]))
+    assert sorted(span for _, span in drawn) == pytest.approx(sorted(zip(rows["low"], rows["high"])))
+    words = rows["verdict"] if table != "self_test" else rows["holds"].map({True: "holds", False: "DOES NOT HOLD"})
+    assert sorted(text.get_text() for text in axes.texts) == sorted(words)
+
+
+def test_strategies_are_the_ladder(full):
+    axes = next(axes for title, axes in artists.panels(draw(strategies.LADDER, full)).items() if "1 thread; base naive_omp" in title)
+    own = full.ladder[(full.ladder["series"] == 0) & (full.ladder["at"] == "one_thread")]
+    own = own[~own["backend"].str.match("again|slowed")]
+    assert [right for _, right in artists.bars(axes, "ratio")] == pytest.approx(list(own["ratio"]))
+    assert [name.split(",")[0] for name in artists.names(axes)] == list(own["backend"])
+    axes = first(strategies.THREADS, full)
+    table = full.over_threads[(full.over_threads["series"] == 0) & (full.over_threads["backend"] == "naive_omp")]
+    assert [x for n in (1, 2, 4, 8, 16) for x, _ in artists.lines(axes)[f"naive_omp {n} thr."]] == pytest.approx(list(table["ratio"]))
+    drawn = artists.lines(first(strategies.WORLDS, full))
+    assert len(drawn) == full.ladder["world"].nunique() + 1  # and that of equals
+
+
+@pytest.mark.parametrize("look", [Look(), PAGE, NARROW, PAPER], ids=["file", "page", "narrow", "paper"])
+@pytest.mark.parametrize("drawing", figures.ALL, ids=lambda drawing: drawing.name)
+def test_no_text_lies_on_another_or_leaves_the_figure(full, two, drawing, look):
+    for figure in filter(None, (figures.draw(drawing, report, look) for report in (full, two))):
+        with figures.applied(look):
+            assert artists.overlaps(figure) == []
+        if look is PAPER:
+            assert figure.get_figwidth() == pytest.approx(84 / 25.4)
+            assert min(text.get_fontsize() for text in figure.findobj(artists.Text)) > 5.5
+
+
+def test_texts_on_each_other_and_beyond_the_edge_are_found(two):
+    figure = draw(bars.LADDER, two)
+    for x, text in ((0.5, "one text"), (0.5, "another text"), (0.98, "beyond")):
+        figure.text(x, 0.5, text)
+    assert {("one text", "another text"), ("beyond", "page")} <= set(artists.overlaps(figure))
+
+
+def shades(colours):
+    """The least difference in lightness of neighbours."""
+    light = list(map(artists.lightness, colours))
+    return min(abs(a - b) for a, b in zip(light, light[1:]))
+
+
+def test_neighbours_in_a_bar_differ_in_grey():
+    assert shades(style.PHASES.values()) > 15
+    parts = [style.shade(style.MUTED, towards) for towards in bars._PARTS.values()]
+    assert shades(parts) > 12
+    assert shades(["#0072B2", "#D55E00"]) < 15  # a pair that would not
+
+
+def test_a_backend_has_one_colour_and_each_known_one_its_own():
+    assert len(set(style.BACKENDS.values())) == len(style.BACKENDS)
+    assert style.colour("colour18_tbb") == style.colour("colour18") != style.colour("nobody_knows")
+    assert style.colour("nobody_knows") in style.SPARE
+    assert style.line("naive_tbb") != style.line("naive_omp")
+
+
+@pytest.mark.parametrize("drawing", figures.ALL, ids=lambda drawing: drawing.name)
+def test_copies_for_the_self_test_are_in_its_figure_alone(full, drawing):
+    said = " ".join(text.get_text() for text in draw(drawing, full).findobj(artists.Text))
+    assert "slowed_20" not in said and "again_" not in said
+    assert ("slowed 20 %" in said) == (drawing.name == "self_test")
+
+
+def test_figures_are_written_whole_and_old_ones_go(two, tmp_path, monkeypatch):
+    (tmp_path / "roofline.svg").write_text("old")
+    (tmp_path / "compilers.png").write_text("old")
+    paths = figures.draw_all(two, tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(path.name for path in paths)
+    assert not (tmp_path / "compilers.png").exists() and (tmp_path / "roofline.svg").read_text() != "old"
+    for path in paths:
+        data = path.read_bytes()
+        assert data.startswith(b"\x89PNG") and data.endswith(b"IEND\xaeB`\x82") or data.rstrip().endswith(b"</svg>")
+    before = {path: path.read_bytes() for path in paths}
+    figures.draw_all(two, tmp_path)
+    assert {path: path.read_bytes() for path in paths} == before
+    monkeypatch.setattr(Figure, "savefig", lambda *_, **__: (_ for _ in ()).throw(OSError("disk full")))
+    with pytest.raises(OSError):
+        figures.draw_all(two, tmp_path)
+    assert {path: path.read_bytes() for path in sorted(tmp_path.iterdir())} == {p: before[p] for p in sorted(before)}
+
+
+def test_a_folder_that_cannot_be_written_to_is_one_line(two, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(pr.ResultsError, match="cannot write .*file"):
+        figures.draw_all(two, tmp_path / "file")
+
+
+def test_texts_are_drawn_as_they_are(tmp_path):
+    rows = made.study(made.talk(), before=[made.environment(cpu="a$b$ \\frac{1} {{ 7 * 7 }}")])
+    report = artists.report(tmp_path, rows)
+    figure = draw(bars.LADDER, report, Look())
+    assert "a$b$ \\frac{1}" in " ".join(text.get_text() for text in figure.texts)
+    assert figures.rendered(figure, "png")
+    assert pd.notna(report.points["sum_s"]).all()
