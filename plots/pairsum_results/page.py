@@ -13,6 +13,7 @@ from . import tables
 from .figures import ALL, Drawing, Look, draw, on_all_cores, parts, rendered
 from .figures.style import BACKENDS, GRID, INK, MUTED, RULE
 from .ladders import worlds
+from .load import COMMON
 from .reports import Report
 from .rows import ResultsError
 from .summary import write_file
@@ -36,8 +37,8 @@ def write(reports: list[Report], path: pathlib.Path) -> None:
 def text(reports: list[Report]) -> str:
     """The HTML of the page. It loads nothing from anywhere."""
     script = (_HERE / "page.js").read_text()
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, undefined=jinja2.StrictUndefined,
-                                     trim_blocks=True, lstrip_blocks=True)
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     drawn = _figures(reports)
     filled = [_tables(report) for report in reports]
     headings = list(dict.fromkeys(heading for one in filled for heading in one))
@@ -62,26 +63,27 @@ def _machine(report: Report) -> dict[str, Any]:
                                                "build_name"], errors="ignore")
     failed = results.failed[["case", "state", "dx", "backend", "M", "threads", "rows", "error"]]
     world = worlds(results).get(report.points["series"].get(report.answer.point)) if report.answer else None
-    return {"report": report, "world": world, "name": str(first["host"]), "cpu": first["cpu"], "rounds": rounds, "sources": results.sources,
-            "series": _html(results.series[["case", "state", "dx", "H", "n_fluid", "n_boundary", "order", "dim", "precision",
-                                            "interaction", "smoothing", "integrator", "dt", "study"]].assign(
-                                                world=worlds(results)).set_index("world").T, index=True),
+    series = results.series[["study", *COMMON]].set_axis(worlds(results)).T
+    return {"report": report, "world": world, "name": str(first["host"]), "cpu": first["cpu"], "rounds": rounds,
+            "sources": results.sources, "series": _html(series, index=True),
             "environments": _html(facts.set_index("environment").applymap(_fact).T, index=True),
             "peaks": _html(results.peaks.drop(columns="build").applymap(_fact)) if len(results.peaks) else "",
             "failed": _html(failed) if len(failed) else "",
-            "broken": report.strategies.dropna(subset=["breaks_down"])[["backend", "breaks_down"]].to_records(index=False)}
+            "broken": report.strategies[["backend", "breaks_down"]].dropna().to_records(index=False)}
 
 
 def _fact(value: Any) -> str:
     if isinstance(value, dict):
         return ", ".join(f"{name} {some}" for name, some in value.items())
-    return "" if value is None or value != value else {True: "yes", False: "no"}[value] if isinstance(value, bool) else (
-        f"{value:.5g}" if isinstance(value, float) else str(value))
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return "" if pd.isna(value) else f"{value:.5g}" if isinstance(value, float) else str(value)
 
 
 def _html(frame: pd.DataFrame, index: bool = False, left: int = 99) -> Markup:
     with pd.option_context("display.max_colwidth", None):
-        return Markup(frame.to_html(index=index, border=0, classes=f"left{left}", na_rep="", float_format="{:.6g}".format))
+        return Markup(frame.to_html(index=index, border=0, classes=f"left{left}", na_rep="",
+                                    float_format="{:.6g}".format))
 
 
 def every_table(report: Report) -> list[tuple[str, tables.Table]]:
@@ -125,8 +127,8 @@ def _figures(reports: list[Report]) -> list[dict[str, Any]]:
 
 
 def _inline(figure: Any, look: Look, salt: str, label: str) -> str:
-    """The figure as SVG for HTML: text stays text, colours of text and rules follow the page; the label is for readers who
-    cannot see it."""
+    """The figure as SVG for HTML: text stays text, colours of text and rules follow the page; the label is for readers
+    who cannot see it."""
     figure.patch.set_visible(False)
     for axes in figure.axes:
         axes.patch.set_visible(False)

@@ -5,18 +5,20 @@ import re
 import pandas as pd
 
 from .figures import ALL, PAPER, draw, on_all_cores, parts, rendered
+from .load import COMMON
 from .page import every_table
 from .reports import Report
 from .stats import FEWEST_FOR_RATIO, LEVEL
 from .summary import write_file
 from .words import threads_words
 
+_LEVEL = f"{100 * LEVEL:g} %"
 _HEAD = "% In the preamble: \\usepackage{booktabs}\n"
 
 
 def write(report: Report, folder: pathlib.Path) -> list[pathlib.Path]:
-    """Writes FIGURE.pdf (FIGURE-2.pdf for the second series), tables.tex and methods.tex, each whole or not at all; returns the
-    paths. Raises ResultsError."""
+    """Writes FIGURE.pdf (FIGURE-2.pdf for the second series), tables.tex and methods.tex, each whole or not at all;
+    returns the paths. Raises ResultsError."""
     shown = parts(report)
     tasks = [(f"{drawing.name}{f'-{k}' if k > 1 else ''}.pdf", drawing, part) for drawing in ALL
              for k, (_, part) in enumerate(shown[drawing.each], 1)]
@@ -55,34 +57,34 @@ def methods(report: Report) -> str:
     """A paragraph that states machine, build, particles, rounds and statistics."""
     results, points = report.results, report.points
     said = [_build(e) for e in results.environments.drop_duplicates("build").itertuples()]
-    for s in results.series.drop(columns=["seed", "environment", "build", "build_name"]).drop_duplicates().itertuples():
-        said.append(f"The case {s.case} ({s.dim}D, {s.state}, {s.order} order) has {s.n_fluid} fluid and {s.n_boundary} boundary "
-                    f"particles (dx = {s.dx:g}, H = {s.H:g}); interaction {s.interaction}, smoothing {s.smoothing}, integrator "
-                    f"{s.integrator}, {s.precision} precision.")
+    said += [f"The case {s.case} ({s.dim}D, {s.state}, {s.order} order) has {s.n_fluid} fluid and {s.n_boundary} "
+             f"boundary particles (dx = {s.dx:g}, H = {s.H:g}); interaction {s.interaction}, smoothing {s.smoothing}, "
+             f"integrator {s.integrator}, {s.precision} precision."
+             for s in results.series[COMMON].drop_duplicates().itertuples()]
     threads = sorted(set(points["threads"]))
-    said.append(f"{len(points)} points (backend, grid and parameters) were measured on "
-                + (threads_words(threads[0]) if len(threads) == 1 else f"{threads[0]} to {threads_words(threads[-1])}")
-                + f", each in {_counted(points['rounds'], 'round')} of "
-                f"{_counted(points['repetitions'], 'repetition')} of {_counted(points['steps'], 'step')}.")
-    others = results.closed["others_share"].max()
-    said.append("A round is a new process, in which the points of a part take turns; every result was verified against a "
-                f"reference before its time counted. Of {len(results.closed) + results.void_rounds} rounds {results.void_rounds} "
-                "were void" + (f"; other processes took at most {100 * others:.2g} % of the processor time of a round"
-                               if pd.notna(others) else "") + ".")
-    level = f"{100 * LEVEL:g} %"
-    said.append("The value of a point in a round is the mean over its steps and repetitions; times are medians over rounds with "
-                f"distribution-free intervals (order statistics) at {level} or more. Ratios are geometric means over the rounds "
-                f"that both points share, with Student's t intervals on the logarithms at {level} (from {FEWEST_FOR_RATIO} rounds "
-                "on; Welch's where no round is shared). Differences are called resolved if they pass Holm's test over all "
-                f"comparisons of a table at {100 - 100 * LEVEL:g} %.")
+    rounds, others = len(results.closed) + results.void_rounds, results.closed["others_share"].max()
+    disturbed = f"; other processes took at most {100 * others:.2g} % of the processor time of a round"
+    said += [
+        f"{len(points)} points (backend, grid and parameters) were measured on "
+        + (threads_words(threads[0]) if len(threads) == 1 else f"{threads[0]} to {threads_words(threads[-1])}")
+        + f", each in {_counted(points['rounds'], 'round')} of {_counted(points['repetitions'], 'repetition')} of "
+        f"{_counted(points['steps'], 'step')}.",
+        "A round is a new process, in which the points of a part take turns; every result was verified against a "
+        f"reference before its time counted. Of {rounds} rounds {results.void_rounds} were void"
+        + (disturbed if pd.notna(others) else "") + ".",
+        "The value of a point in a round is the mean over its steps and repetitions; times are medians over rounds "
+        f"with distribution-free intervals (order statistics) at {_LEVEL} or more. Ratios are geometric means over "
+        f"the rounds that both points share, with Student's t intervals on the logarithms at {_LEVEL} (from "
+        f"{FEWEST_FOR_RATIO} rounds on; Welch's where no round is shared). Differences are called resolved if they "
+        f"pass Holm's test over all comparisons of a table at {100 - 100 * LEVEL:.3g} %."]
     return "\n".join(map(escaped, said)) + "\n"
 
 
 def _build(e) -> str:
     dirty = " with uncommitted changes" if e.dirty else ""
     governor = f", governor {e.governor}" if isinstance(e.governor, str) else ""
-    return (f"Times were measured with pairsum at revision {e.git}{dirty}, built by {e.compiler} ({e.flags}), on {e.cpu} with "
-            f"{e.cores} cores ({e.os_kernel}{governor}); binding of threads: {e.binding}.")
+    return (f"Times were measured with pairsum at revision {e.git}{dirty}, built by {e.compiler} ({e.flags}), on "
+            f"{e.cpu} with {e.cores} cores ({e.os_kernel}{governor}); binding of threads: {e.binding}.")
 
 
 def _counted(values: pd.Series, what: str) -> str:

@@ -1,4 +1,4 @@
-"""The figures of a report, each drawn from its tables. To add one: write its panels in a file here, and list it in ALL."""
+"""The figures of a report, each drawn from its tables. To add one: write its panels here and list it in ALL."""
 import gc
 import io
 import multiprocessing
@@ -15,7 +15,8 @@ try:
     import matplotlib
     from matplotlib.figure import Figure
 except ImportError as problem:
-    raise ResultsError(f"figures need matplotlib for {sys.executable}: {problem} (Debian: python3-matplotlib)") from None
+    raise ResultsError(f"figures need matplotlib for {sys.executable}: {problem} (Debian: python3-matplotlib)"
+                       ) from None
 
 from . import bars, over, ratios, roofline, strategies, threads
 from .parts import Drawing, of_series, working
@@ -32,7 +33,7 @@ Part = tuple[str, Report]
 
 
 def parts(report: Report) -> dict[bool, list[Part]]:
-    """What figures are drawn of, by Drawing.each: every series, with a few words for it if there are several, or all."""
+    """What figures are drawn of, by Drawing.each: every series, if there are several with words for it; or all."""
     own = working(report)
     return {True: list(of_series(own)), False: [("", own)]}
 
@@ -54,8 +55,8 @@ def footer(report: Report) -> str:
     """Where the numbers come from: what was measured, machine, compiler, revision, caveats."""
     first, more = report.results.environments.iloc[0], len(report.results.environments) - 1
     s = report.results.series.iloc[0]
-    text = (f"{s['case']}, {s['state']}, dx {s['dx']:g} m, {s['n_fluid']} fluid + {s['n_boundary']} boundary particles, "
-            f"{s['precision']}, {s['interaction']}. " if len(report.results.series) == 1 else "")
+    text = (f"{s['case']}, {s['state']}, dx {s['dx']:g} m, {s['n_fluid']} fluid + {s['n_boundary']} boundary particles"
+            f", {s['precision']}, {s['interaction']}. " if len(report.results.series) == 1 else "")
     text += f"{first['cpu']}, {first['cores']} cores, {first['build_name']}"
     text += f"; and {more} more environment{'s' * (more > 1)}." if more else "."
     said = [textwrap.shorten(caveat, 140, placeholder=" ...") for caveat in report.caveats[:2]]
@@ -64,8 +65,8 @@ def footer(report: Report) -> str:
 
 
 def draw_all(report: Report, folder: pathlib.Path) -> list[pathlib.Path]:
-    """Writes every figure that the study has something for as SVG and PNG, each file whole or not at all; returns the paths.
-    A figure that the study has nothing for takes away the files that an earlier report left. Raises ResultsError."""
+    """Writes every figure that the study has something for as SVG and PNG, each file whole or not at all; returns the
+    paths. One that it has nothing for takes away the files that an earlier report left. Raises ResultsError."""
     shown = parts(report)
 
     def files(drawing: Drawing) -> dict[str, bytes | None]:
@@ -82,8 +83,8 @@ def draw_all(report: Report, folder: pathlib.Path) -> list[pathlib.Path]:
 
 
 def rendered(figure: Figure, kind: str, look: Look = Look(), inline: str = "") -> bytes:
-    """The figure as bytes of a file of this kind, the same for the same figure. An SVG that stands in a page keeps its text
-    as text, and its ids depend on `inline`, which is another for every figure of the page."""
+    """The figure as bytes of a file of this kind, the same for the same figure. An SVG that stands in a page keeps its
+    text as text, and its ids depend on `inline`, which is another for every figure of the page."""
     stream = io.BytesIO()
     stamp = {"svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None}}.get(kind)
     with applied(look), matplotlib.rc_context({"svg.hashsalt": inline or "pairsum",

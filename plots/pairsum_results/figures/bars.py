@@ -9,8 +9,9 @@ from ..load import EVALUATION
 from ..model import thread_times
 from ..reports import Report
 from . import style
+from .marks import beside, boxes, few, name_rows
 from .parts import Drawing, digits, fastest, named, usual
-from .sheet import Panel, beside, boxes, few, name_rows
+from .sheet import Panel
 
 #: Parts of an evaluation in their order in time, and how far each is shaded towards white, or below 0 towards black.
 _PARTS = {"prepare_s": 0.6, "zero_s": 0.85, "sum_s": 0.0, "reduce_s": -0.45}
@@ -32,14 +33,15 @@ def _ladder(report: Report) -> list[Panel]:
         beside(axes, left, at, [f"{digits(a)} ({digits(s)})" for a, s in zip(table[EVALUATION], table["sum_s"])])
         axes.set(xlim=(0, 1.02 * right), xlabel="time per interacting pair [ns]")
 
-    key = [Patch(label=part.removesuffix("_s"), facecolor=style.shade(style.MUTED, towards), edgecolor=style.INK, linewidth=0.5)
-           for part, towards in _PARTS.items()]
+    key = [Patch(label=part.removesuffix("_s"), facecolor=style.shade(style.MUTED, towards), edgecolor=style.INK,
+                 linewidth=0.5) for part, towards in _PARTS.items()]
     return [Panel(title, lambda axes, how=how: paint(axes, *how), len(how[0]), key) for title, *how in columns]
 
 
 LADDER = Drawing(
-    "ladder", "All backends", "Time per interacting pair of every backend at its best grid, M and granularity, the fastest "
-    "on top. A bar stacks prepare, zero, sum and reduce; the number is all of it, in brackets the sum alone.",
+    "ladder", "All backends",
+    "Time per interacting pair of every backend at its best grid, M and granularity, the fastest on top. A bar "
+    "stacks prepare, zero, sum and reduce; the number is all of it, in brackets the sum alone.",
     "a verified point", _ladder)
 
 
@@ -58,8 +60,8 @@ def _phase_split(report: Report) -> list[Panel]:
             length = 1e3 * own[phase].fillna(0).to_numpy()
             boxes(axes, at, left, length, color=colour, linewidth=0, label=phase)
             left = left + length
-        axes.plot(1e3 * own["total_s"], at, color=style.INK, marker="|", markersize=9, markeredgewidth=1.6, linestyle="",
-                  label="total_s")
+        axes.plot(1e3 * own["total_s"], at, color=style.INK, marker="|", markersize=9, markeredgewidth=1.6,
+                  linestyle="", label="total_s")
         few(axes.xaxis)
         axes.set(xlim=(0, 1.02 * right), xlabel="time per step [ms]")
 
@@ -70,13 +72,16 @@ def _phase_split(report: Report) -> list[Panel]:
 
 
 PHASE_SPLIT = Drawing(
-    "phase_split", "Phases of a step", "Where the time of a step goes: medians of the phases, stacked; the black mark is the "
-    "whole step. Each backend with its best granularity and block, on one thread and on its most.", "phases", _phase_split)
+    "phase_split", "Phases of a step",
+    "Where the time of a step goes: medians of the phases, stacked; the black mark is the whole step. Each backend "
+    "with its best granularity and block, on one thread and on its most.",
+    "phases", _phase_split)
 
 
 def _barrier_wait(report: Report) -> list[Panel]:
     points = usual(report.points[report.points["wait_share"].notna() & (report.points["threads"] > 1)], "sum_s")
-    points = points[points["threads"] == points.groupby("backend")["threads"].transform("max")].sort_values("wait_share")
+    points = points[points["threads"] == points.groupby("backend")["threads"].transform("max")]
+    points = points.sort_values("wait_share")
     if points.empty:
         return []
     threads = 1e3 * thread_times(report.results).set_index(["point", "thread"])
@@ -94,11 +99,13 @@ def _barrier_wait(report: Report) -> list[Panel]:
         few(axes.xaxis)
         axes.set(xlim=(0, 1.02 * threads.sum(axis=1).max()), xlabel="time per sum [ms]")
 
-    key = [Patch(label="busy (all passes)", facecolor=style.MUTED), Patch(label="waiting at barriers", **_wait(style.MUTED))]
+    key = [Patch(label="busy (all passes)", facecolor=style.MUTED),
+           Patch(label="waiting at barriers", **_wait(style.MUTED))]
     rows = 1.2 + 0.1 * min(points["threads"].max(), 32)
     parts = [own for own in (points[:middle], points[middle:]) if len(own)]
     titles = [""] if len(parts) == 1 else ["least waiting", "most waiting"]
-    return [Panel(title, lambda axes, own=own: paint(axes, own), rows * len(own), key) for title, own in zip(titles, parts)]
+    return [Panel(title, lambda axes, own=own: paint(axes, own), rows * len(own), key)
+            for title, own in zip(titles, parts)]
 
 
 def _wait(colour: str) -> dict:
@@ -106,6 +113,7 @@ def _wait(colour: str) -> dict:
 
 
 BARRIER_WAIT = Drawing(
-    "barrier_wait", "Waiting at barriers", "One bar per thread of every backend on its most threads: time spent summing "
-    "(solid) and waiting for other threads (light), all passes; the number is the share of the wait.",
+    "barrier_wait", "Waiting at barriers",
+    "One bar per thread of every backend on its most threads: time spent summing (solid) and waiting for other "
+    "threads (light), all passes; the number is the share of the wait.",
     "barrier waits on 2 or more threads", _barrier_wait)

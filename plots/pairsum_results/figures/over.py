@@ -7,13 +7,14 @@ from .. import words
 from ..load import COMMON
 from ..reports import Report
 from . import style
+from .marks import at, ends, intervals, log, room
 from .parts import Drawing, fastest, named, usual
-from .sheet import Panel, at, ends, intervals, log, room
+from .sheet import Panel
 
 
 def _line(axes: Axes, x: pd.Series, y: pd.Series, backend: str, **how) -> None:
-    axes.plot(x, y, **{"color": style.colour(backend), "linestyle": style.line(backend), "marker": "o", "label": backend,
-                       "markeredgecolor": style.INK, "markeredgewidth": 0.5, "zorder": 3, **how})
+    axes.plot(x, y, **{"color": style.colour(backend), "linestyle": style.line(backend), "label": backend, "zorder": 3,
+                       "marker": "o", "markeredgecolor": style.INK, "markeredgewidth": 0.5, **how})
 
 
 #: What does not depend on threads: column -> (title, label, logarithmic).
@@ -60,8 +61,9 @@ def _m_comparison(report: Report) -> list[Panel]:
 
 
 M_COMPARISON = Drawing(
-    "m_comparison", "Choice of M", "Summation time against M (with intervals), then why: distance tests, the share of them "
-    "that folding cells onto 2^(dM) adds (collisions), useful pairs, and non-empty cells. Lines that coincide are drawn once.",
+    "m_comparison", "Choice of M",
+    "Summation time against M (with intervals), then why: distance tests, the share of them that folding cells onto "
+    "2^(dM) adds (collisions), useful pairs, and non-empty cells. Lines that coincide are drawn once.",
     "several M", _m_comparison)
 
 
@@ -82,7 +84,8 @@ def _size_scaling(report: Report) -> list[Panel]:
         for backend, line in some.groupby("backend", sort=False):
             _line(axes, line["particles"], line[column], backend)
             if column == "sum_s":
-                intervals(axes, line["particles"], line[column], line["sum_s_low"], line["sum_s_high"], style.colour(backend))
+                intervals(axes, line["particles"], line[column], line["sum_s_low"], line["sum_s_high"],
+                          style.colour(backend))
             labels.append((line["particles"].iloc[-1], line[column].iloc[-1], backend, style.colour(backend)))
         log(axes, "x", some["particles"], counted=True)
         log(axes, "y", some[column])
@@ -103,8 +106,11 @@ def fastest_of_each_size(points: pd.DataFrame):
             yield title, some
 
 
-SIZE_SCALING = Drawing("size_scaling", "Size", "Time per sum and per interacting pair against the number of particles, each "
-                       "backend at its best grid, M and granularity.", "a backend with several dx", _size_scaling, each=False)
+SIZE_SCALING = Drawing(
+    "size_scaling", "Size",
+    "Time per sum and per interacting pair against the number of particles, each backend at its best grid, M and "
+    "granularity.",
+    "a backend with several dx", _size_scaling, each=False)
 
 _SCHEDULES = {"dynamic": ("-", "o"), "static": ((0, (5, 2)), "s"), "guided": (":", "D"), "simple": ("-", "o"),
               "auto": ((0, (1, 1)), "v"), "affinity": ((0, (3, 1, 1, 1)), "^")}
@@ -127,7 +133,8 @@ def _granularity(report: Report) -> list[Panel]:
         for schedule, some in own.groupby("schedule", sort=False):
             line, mark = _SCHEDULES.get(schedule, ("-", "X"))
             sized = some.dropna(subset=["chunk"]).sort_values("chunk")
-            _line(axes, sized["chunk"], sized["sum_s"], own["backend"].iloc[0], linestyle=line, marker=mark, label=schedule)
+            _line(axes, sized["chunk"], sized["sum_s"], own["backend"].iloc[0], linestyle=line, marker=mark,
+                  label=schedule)
             intervals(axes, sized["chunk"], sized["sum_s"], sized["sum_s_low"], sized["sum_s_high"], colour)
             labels += [(chunk, time, schedule, colour) for chunk, time in zip(sized["chunk"][-1:], sized["sum_s"][-1:])]
             for time in some.loc[some["chunk"].isna(), "sum_s"]:
@@ -141,6 +148,8 @@ def _granularity(report: Report) -> list[Panel]:
     return panels
 
 
-GRANULARITY = Drawing("granularity", "Granularity", "Summation time against the chunk of the parallel loop, a line per "
-                      "schedule, with intervals; a schedule without a chunk is a level line.",
-                      "one backend with several granularities", _granularity)
+GRANULARITY = Drawing(
+    "granularity", "Granularity",
+    "Summation time against the chunk of the parallel loop, a line per schedule, with intervals; a schedule without "
+    "a chunk is a level line.",
+    "one backend with several granularities", _granularity)

@@ -13,7 +13,7 @@ from .sheet import Panel
 
 @dataclasses.dataclass(frozen=True)
 class Drawing:
-    """`panels` makes the panels of a report, or of one series of it if `each`; none if the study has nothing to show."""
+    """`panels` makes the panels of a report, or of one series of it if `each`; none if there is nothing to show."""
     name: str
     heading: str
     caption: str
@@ -39,8 +39,8 @@ def of_series(report: Report) -> Iterator[tuple[str, Report]]:
 
 
 def usual(table: pd.DataFrame, time: str = "time_s", apart: tuple[str, ...] = ()) -> pd.DataFrame:
-    """Of each backend in each series the granularity, block and instruction set that most lines have, of several such the
-    fastest, alone; columns `apart` are kept apart."""
+    """Of each backend in each series the granularity, block and instruction set that most lines have, of several such
+    the fastest, alone; columns `apart` are kept apart."""
     keys = ["series", "backend", *apart]
     same = keys + [name for name in ("granularity", "block", "isa") if name not in apart]
     found = table.groupby(same)[time].agg(["size", "min"]).sort_values(["size", "min"], ascending=[False, True])
@@ -67,5 +67,5 @@ def digits(value: float) -> str:
 def named(table: pd.DataFrame, threads: bool = True) -> list[str]:
     """Lines of a table in words: "tiles_omp avx512, M=6, 2 thr."; of points on different grids with these."""
     grids = table["grid"].nunique() > 1
-    return [", ".join(filter(None, (name, "" if pd.isna(p.M) else f"M={p.M:.0f}", f"{p.threads} thr." if threads else "")))
+    return [name + ("" if pd.isna(p.M) else f", M={p.M:.0f}") + (f", {p.threads} thr." if threads else "")
             for name, p in zip(words.names(table, grids), table.itertuples())]

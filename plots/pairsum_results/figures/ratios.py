@@ -4,8 +4,9 @@ from matplotlib.axes import Axes
 
 from ..reports import Report
 from . import style
+from .marks import dots, name_rows, reference
 from .parts import Drawing, named
-from .sheet import Panel, dots, name_rows, reference
+from .sheet import Panel
 
 
 def _dots(axes: Axes, own: pd.DataFrame, names: list[str], said: list[str], label: str, limits: pd.Series) -> None:
@@ -13,7 +14,8 @@ def _dots(axes: Axes, own: pd.DataFrame, names: list[str], said: list[str], labe
     rows = name_rows(axes, names)
     reference(axes, 1.0, label="equal")
     if "expected" in own:
-        axes.scatter(own["expected"], rows, marker="|", s=220, linewidths=2.2, color=style.INK, zorder=2, label="expected")
+        axes.scatter(own["expected"], rows, marker="|", s=220, linewidths=2.2, color=style.INK, zorder=2,
+                     label="expected")
     dots(axes, rows, own, label)
     room = 0.06 * (max(limits.max(), 1) - min(limits.min(), 1)) or 0.05
     axes.set_xlim(min(limits.min(), 1) - room, max(limits.max(), 1) + room)
@@ -29,9 +31,11 @@ def _compilers(report: Report) -> list[Panel]:
         for (build, base), own in table.groupby(["build", "base_build"], sort=False)]
 
 
-COMPILERS = Drawing("compilers", "Compilers", "The same backends by several builds: time with the base build over time with "
-                    "the other, with 95\u00a0% intervals; right of 1 the other is faster.", "several builds in the same rounds",
-                    _compilers, each=False)
+COMPILERS = Drawing(
+    "compilers", "Compilers",
+    "The same backends by several builds: time with the base build over time with the other, with 95\u00a0% "
+    "intervals; right of 1 the other is faster.",
+    "several builds in the same rounds", _compilers, each=False)
 
 
 def _self_test(report: Report) -> list[Panel]:
@@ -46,6 +50,7 @@ def _self_test(report: Report) -> list[Panel]:
 
 
 SELF_TEST = Drawing(
-    "self_test", "Self-test", "Does the harness find known differences, and none where there is none? Dot: measured ratio; "
-    "line: its interval, at 95\u00a0% over the whole table; tall mark: expected.", "backends whose behaviour is known", _self_test,
-    each=False)
+    "self_test", "Self-test",
+    "Does the harness find known differences, and none where there is none? Dot: measured ratio; line: its interval, "
+    "at 95\u00a0% over the whole table; tall mark: expected.",
+    "backends whose behaviour is known", _self_test, each=False)

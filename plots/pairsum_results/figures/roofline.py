@@ -5,8 +5,9 @@ from matplotlib.axes import Axes
 from .. import words
 from ..reports import Report
 from . import style
+from .marks import ends, log, room
 from .parts import Drawing, named
-from .sheet import Panel, ends, log, room
+from .sheet import Panel
 
 
 def _panels(report: Report) -> list[Panel]:
@@ -23,10 +24,10 @@ def _panels(report: Report) -> list[Panel]:
         log(axes, "y", [y.min() / 1.6, y.max() * 1.5])
         right, low = axes.get_xlim()[1], axes.get_ylim()[0]
         for peak, rate in own[["peak", "rate"]].dropna().drop_duplicates().itertuples(index=False):
-            axes.plot([low / rate / 10, peak / rate, right], [low / 10, peak, peak], color=style.RULE, linewidth=2, zorder=1,
-                      label="roof")
-            axes.annotate(f"{peak:.3g} Gflop/s, {rate:.3g} GB/s", (right, peak), xytext=(-2, 4), textcoords="offset points",
-                          ha="right", fontsize="small", color=style.MUTED)
+            axes.plot([low / rate / 10, peak / rate, right], [low / 10, peak, peak], color=style.RULE, linewidth=2,
+                      zorder=1, label="roof")
+            axes.annotate(f"{peak:.3g} Gflop/s, {rate:.3g} GB/s", (right, peak), xytext=(-2, 4),
+                          textcoords="offset points", ha="right", fontsize="small", color=style.MUTED)
         best = own.sort_values("sum_s").drop_duplicates("backend")
         for p in own.itertuples():
             large = p.Index in best.index
@@ -41,6 +42,7 @@ def _panels(report: Report) -> list[Panel]:
 
 
 ROOFLINE = Drawing(
-    "roofline", "Roofline", "Achieved flops per second against flops per byte (a model of the work), on one thread and on the "
-    "most. Grey: what the measured memory bandwidth and peak allow. Large markers: each backend at its best.",
+    "roofline", "Roofline",
+    "Achieved flops per second against flops per byte (a model of the work), on one thread and on the most. Grey: "
+    "what the measured memory bandwidth and peak allow. Large markers: each backend at its best.",
     "flops and bytes of the model, which rows say from schema 3 on", _panels)

@@ -8,16 +8,17 @@ from matplotlib.patches import Patch
 from .. import words
 from ..reports import Report
 from . import style
+from .marks import beside, boxes, few, log, name_rows, reference
 from .parts import Drawing, digits
-from .sheet import Panel, beside, boxes, few, log, name_rows, reference
+from .sheet import Panel
 
 
 def _colours(report: Report, backends: pd.Series) -> tuple[list[str], list[Patch]]:
     """The colours of how backends keep threads apart, or their own where that is not known, and the legend."""
     kinds = report.results.backends["conflicts"].reindex(backends)
     known = [style.KINDS.get(kind) for kind in kinds]
-    key = [Patch(label=kind, facecolor=colour, edgecolor=style.INK, linewidth=0.5) for kind, colour in style.KINDS.items()
-           if kind in set(kinds)]
+    key = [Patch(label=kind, facecolor=colour, edgecolor=style.INK, linewidth=0.5)
+           for kind, colour in style.KINDS.items() if kind in set(kinds)]
     return [colour or style.colour(backend) for colour, backend in zip(known, backends)], key
 
 
@@ -29,7 +30,8 @@ def _ladder(report: Report) -> list[Panel]:
         reference(axes, 1.0, label="equal")
         at = name_rows(axes, [", ".join(filter(None, (e.backend, "" if pd.isna(e.M) else f"M={e.M:.0f}"))) + (
             f", {e.threads} thr." if e.at == "most_threads" else "") for e in own.itertuples()])
-        boxes(axes, at, 0, own["ratio"], label="ratio", facecolor=_colours(report, own["backend"])[0], edgecolor=style.INK, linewidth=0.5)
+        boxes(axes, at, 0, own["ratio"], label="ratio", facecolor=_colours(report, own["backend"])[0],
+              edgecolor=style.INK, linewidth=0.5)
         for width, colour in ((3.6, "white"), (1.6, style.INK)):
             axes.hlines(at, own["low"], own["high"], color=colour, linewidth=width)
         reach = own[["ratio", "high"]].max(axis=1).clip(upper=right)
@@ -37,17 +39,22 @@ def _ladder(report: Report) -> list[Panel]:
         axes.set(xlim=(0, 1.02 * max(right, 1)), xlabel="times as fast as the base")
         few(axes.xaxis)
 
-    titles = {"one_thread": "1 thread", "most_threads": "each at its most threads"}
-    return [Panel(f"{titles[at]}; base {own['base_backend'].iloc[0]}, {words.threads_words(own['base_threads'].iloc[0])}, "
-                  f"{digits(1e3 * own['base_time_s'].iloc[0])} ms", lambda axes, own=own: paint(axes, own), len(own),
-                  _colours(report, own["backend"])[1])
-            for (_, at), own in table.groupby(["series", "at"], sort=False)]
+    panels, titles = [], {"one_thread": "1 thread", "most_threads": "each at its most threads"}
+    for (_, at), own in table.groupby(["series", "at"], sort=False):
+        base = own.iloc[0]
+        panels.append(Panel(
+            f"{titles[at]}; base {base['base_backend']}, {words.threads_words(base['base_threads'])}, "
+            f"{digits(1e3 * base['base_time_s'])} ms", lambda axes, own=own: paint(axes, own), len(own),
+            _colours(report, own["backend"])[1]))
+    return panels
 
 
 LADDER = Drawing(
-    "strategy_ladder", "Ladder of strategies", "How many times as fast as the base each backend gets the rates: prepare, "
-    "zero, sum and reduce together, mean over the steps; in brackets the time. Black lines: 95\u00a0% intervals. Colours: how "
-    "threads are kept apart, where backends say it.", "a gather and two more backends", _ladder, strategies=True)
+    "strategy_ladder", "Ladder of strategies",
+    "How many times as fast as the base each backend gets the rates: prepare, zero, sum and reduce together, mean "
+    "over the steps; in brackets the time. Black lines: 95\u00a0% intervals. Colours: how threads are kept apart, "
+    "where backends say it.",
+    "a gather and two more backends", _ladder, strategies=True)
 
 
 def _threads(report: Report) -> list[Panel]:
@@ -80,9 +87,10 @@ def _threads(report: Report) -> list[Panel]:
 
 
 THREADS = Drawing(
-    "strategy_threads", "Strategies over threads", "Times as fast as the base on one thread: a marker per number of threads; "
-    "the further apart they are, the more threads gain. Thick: 95\u00a0% intervals.", "strategies on several threads", _threads,
-    strategies=True)
+    "strategy_threads", "Strategies over threads",
+    "Times as fast as the base on one thread: a marker per number of threads; the further apart they are, the more "
+    "threads gain. Thick: 95\u00a0% intervals.",
+    "strategies on several threads", _threads, strategies=True)
 
 
 def _worlds(report: Report) -> list[Panel]:
@@ -107,12 +115,14 @@ def _worlds(report: Report) -> list[Panel]:
         log(axes, "x", [*table[["ratio", "low", "high"]].stack(), 1.0])
         axes.set_xlabel("times as fast as the base on as many threads")
 
-    key = [Line2D([], [], marker=mark, color=colour, markeredgecolor=style.INK, markeredgewidth=0.5, linestyle="", label=world)
-           for world, (mark, colour) in looks.items()]
+    key = [Line2D([], [], marker=mark, color=colour, markeredgecolor=style.INK, markeredgewidth=0.5, linestyle="",
+                  label=world) for world, (mark, colour) in looks.items()]
     return [Panel(f"base {', '.join(sorted(set(table['base_backend'])))}; each at its most threads", paint,
                   1.5 * len(backends), key)]
 
 
 WORLDS = Drawing(
-    "strategy_worlds", "From world to world", "Each backend against the base in every world, with 95\u00a0% intervals: markers far "
-    "to the left of its others are where it breaks down.", "strategies in several worlds", _worlds, each=False, strategies=True)
+    "strategy_worlds", "From world to world",
+    "Each backend against the base in every world, with 95\u00a0% intervals: markers far to the left of its others "
+    "are where it breaks down.",
+    "strategies in several worlds", _worlds, each=False, strategies=True)

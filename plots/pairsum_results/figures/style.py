@@ -11,11 +11,13 @@ MUTED = "#6f6f6f"  # footers, secondary text
 RULE = "#9a9a9a"   # reference lines (ideal, equal)
 GRID = "#e4e4e4"
 
-#: Okabe-Ito palette and grey, and the dark colours of Tol's muted scheme: safe for colour-blind readers. So many more are
-#: not; lines and rows are always named. One backend, one colour, everywhere; X_tbb has that of X unless it has its own.
+#: Okabe-Ito palette and grey, and the dark colours of Tol's muted scheme: safe for colour-blind readers. So many more
+#: are not; lines and rows are always named. One backend, one colour, everywhere; X_tbb has that of X unless it has its
+#: own.
 BACKENDS = {
-    "naive": "#000000", "naive_omp": "#E69F00", "naive_tbb": "#D55E00", "pair_list": "#F0E442", "sphysics_sweep": "#CC79A7",
-    "ppm_stencil": "#999999", "symmetric": "#56B4E9", "symmetric_omp": "#0072B2", "symmetric_tbb": "#009E73",
+    "naive": "#000000", "naive_omp": "#E69F00", "naive_tbb": "#D55E00", "pair_list": "#F0E442",
+    "sphysics_sweep": "#CC79A7", "ppm_stencil": "#999999", "symmetric": "#56B4E9",
+    "symmetric_omp": "#0072B2", "symmetric_tbb": "#009E73",
     "tiles_omp": "#332288", "tiles_tbb": "#117733", "naive_tiles_omp": "#882255", "atomic_add": "#B2182B",
     "thread_private": "#8C510A", "touched_blocks": "#BF812D", "per_pass_buffers": "#80CDC1", "colour18": "#01665E",
     "colour4": "#35978F", "sliced_locks": "#C51B7D", "sliced_2colour": "#4D9221", "task_conflicts": "#762A83",
@@ -80,8 +82,8 @@ def applied(look: Look) -> Iterator[None]:
             "font.family": "DejaVu Sans", "font.size": look.font, "axes.titlesize": look.font * 1.05,
             "axes.labelsize": look.font, "xtick.labelsize": small, "ytick.labelsize": small, "legend.fontsize": small,
             "text.color": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK, "axes.edgecolor": RULE,
-            "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": GRID, "grid.linewidth": 0.8,
-            "axes.axisbelow": True, "axes.titlelocation": "left", "axes.titleweight": "bold", "axes.titley": 1.0,
-            "legend.frameon": False, "lines.linewidth": 0.18 * look.font, "lines.markersize": 0.58 * look.font, "text.parse_math": False,
-            "pdf.fonttype": 42})
+            "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": GRID,
+            "grid.linewidth": 0.8, "axes.axisbelow": True, "axes.titlelocation": "left", "axes.titleweight": "bold",
+            "axes.titley": 1.0, "legend.frameon": False, "lines.linewidth": 0.18 * look.font,
+            "lines.markersize": 0.58 * look.font, "text.parse_math": False, "pdf.fonttype": 42})
         yield

@@ -9,12 +9,14 @@ from matplotlib.lines import Line2D
 from .. import words
 from ..reports import Report
 from . import style
+from .marks import at, beside, dots, ends, intervals, name_rows, reference, room, threads_axis
 from .parts import Drawing, named, usual
-from .sheet import Panel, at, beside, dots, ends, intervals, name_rows, reference, room, threads_axis
+from .sheet import Panel
 
 #: Numbers of threads from which lines over threads say more than rows of dots.
 _LINES_FROM = 3
-_MACHINE = {"machine_flops_scaling": ("machine's flops", "-"), "machine_bandwidth_scaling": ("machine's bandwidth", ":")}
+_MACHINE = {"machine_flops_scaling": ("machine's flops", "-"),
+            "machine_bandwidth_scaling": ("machine's bandwidth", ":")}
 #: A grey line: its name, style, and y over x = threads.
 _Grey = tuple[str, str, Iterable[float], Iterable[float]]
 
@@ -26,8 +28,9 @@ def _lines(table: pd.DataFrame, value: str, label: str, grey: Callable[[pd.DataF
         labels = []
         for name, line in own.groupby("name", sort=False):
             line, colour = line.sort_values("threads"), style.colour(line["backend"].iloc[0])
-            axes.plot(line["threads"], line[value], color=colour, linestyle=style.line(line["backend"].iloc[0]), label=name,
-                      marker=style.marker(line["M"].iloc[0]), markeredgecolor=style.INK, markeredgewidth=0.6)
+            axes.plot(line["threads"], line[value], color=colour, linestyle=style.line(line["backend"].iloc[0]),
+                      marker=style.marker(line["M"].iloc[0]), markeredgecolor=style.INK, markeredgewidth=0.6,
+                      label=name)
             if value == "ratio":
                 intervals(axes, line["threads"], line[value], line["low"], line["high"], colour)
             labels.append((line["threads"].iloc[-1], line[value].iloc[-1], name, colour))
@@ -44,7 +47,8 @@ def _lines(table: pd.DataFrame, value: str, label: str, grey: Callable[[pd.DataF
 
 
 def _panelled(table: pd.DataFrame) -> pd.DataFrame:
-    """The table of backends measured beyond one thread with "panel", grid and M, and "name", what else tells lines apart."""
+    """The table of backends measured beyond one thread with "panel", grid and M, and "name", what else tells lines
+    apart."""
     table = table[table.groupby(["backend", "grid", "M"], dropna=False)["threads"].transform("max") > 1]
     grids = table["grid"].where(table["M"].isna() | (table["grid"].nunique() > 1), "")
     cells = table["M"].map(lambda m: "" if np.isnan(m) else f"M={m:.0f}")
@@ -98,8 +102,9 @@ def _rows(table: pd.DataFrame) -> Panel:
 
 
 SPEEDUP = Drawing(
-    "speedup", "Speedup", "Summation time with 1 thread over that with more threads, of the same backend, with 95\u00a0% "
-    "intervals. Grey: ideal, and how the measured flops and memory bandwidth of the machine itself scale.",
+    "speedup", "Speedup",
+    "Summation time with 1 thread over that with more threads, of the same backend, with 95\u00a0% intervals. Grey: "
+    "ideal, and how the measured flops and memory bandwidth of the machine itself scale.",
     "backends on one thread and on more", _speedup)
 
 
@@ -112,8 +117,10 @@ def _efficiency(report: Report) -> list[Panel]:
                   lambda own: [("ideal", "--", counts, [1.0] * len(counts))], _linear(table, ["efficiency"]))
 
 
-EFFICIENCY = Drawing("efficiency", "Efficiency", "Speedup divided by the number of threads; 1 is ideal.",
-                     "3 numbers of threads; for fewer, the axis on top of the speedups says it", _efficiency)
+EFFICIENCY = Drawing(
+    "efficiency", "Efficiency",
+    "Speedup divided by the number of threads; 1 is ideal.",
+    "3 numbers of threads; for fewer, the axis on top of the speedups says it", _efficiency)
 
 
 def _algorithm_speedup(report: Report) -> list[Panel]:
@@ -125,8 +132,8 @@ def _algorithm_speedup(report: Report) -> list[Panel]:
     table = table.assign(name=named(table, False), base_name=bases, panel="base " + bases)
     if table["threads"].nunique() >= _LINES_FROM:
         counts = sorted(set(table["threads"]))
-        return _lines(table, "ratio", "time of the base / time", lambda own: [("base", "--", counts, [1.0] * len(counts))],
-                      _linear(table, ["ratio", "high"]))
+        return _lines(table, "ratio", "time of the base / time",
+                      lambda own: [("base", "--", counts, [1.0] * len(counts))], _linear(table, ["ratio", "high"]))
 
     def paint(axes: Axes, own: pd.DataFrame) -> None:
         reference(axes, 1.0, label="equal")
@@ -134,11 +141,12 @@ def _algorithm_speedup(report: Report) -> list[Panel]:
         dots(axes, rows, own, "time of the base / time")
         beside(axes, own[["ratio", "high"]].max(axis=1), rows, own["ratio"].map("{:.2f}".format))
 
-    return [Panel(words.threads_words(count), lambda axes, own=own.sort_values("ratio", ascending=False): paint(axes, own),
-                  len(own)) for count, own in table.groupby("threads")]
+    return [Panel(words.threads_words(count), lambda axes, own=own: paint(axes, own), len(own))
+            for count, own in table.sort_values("ratio", ascending=False).groupby("threads")]
 
 
 ALGORITHM_SPEEDUP = Drawing(
-    "algorithm_speedup", "Algorithm speedup", "How many times as fast as its base (behind the stroke) a backend is, with the "
-    "same runtime and threads, with 95\u00a0% intervals; 1 is no gain.",
+    "algorithm_speedup", "Algorithm speedup",
+    "How many times as fast as its base (behind the stroke) a backend is, with the same runtime and threads, with "
+    "95\u00a0% intervals; 1 is no gain.",
     "a gather and a symmetric sum that differ in nothing else", _algorithm_speedup)
