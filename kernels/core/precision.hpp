@@ -24,7 +24,7 @@ inline constexpr std::string_view mixed_precision = "mixed";
 /// Does this build hold the dimension D in working precision R?
 template <int D, class R>
 constexpr bool is_place() {
-#define PAIRSUM_IS_IT(d, r) (d == D && std::is_same_v<r, R>) ||
+#define PAIRSUM_IS_IT(d, r) ((d) == D && std::is_same_v<r, R>) ||
   return PAIRSUM_EACH_D_R(PAIRSUM_IS_IT) false;
 #undef PAIRSUM_IS_IT
 }
@@ -33,7 +33,7 @@ constexpr bool is_place() {
 template <class F>
 auto at_place(int dim, bool single, F&& f) -> decltype(f.template operator()<3, double>()) {
 #define PAIRSUM_AT(D, R) \
-  if (dim == D && single == std::is_same_v<R, float>) return f.template operator()<D, R>();
+  if (dim == (D) && single == std::is_same_v<R, float>) return f.template operator()<D, R>();
   PAIRSUM_EACH_D_R(PAIRSUM_AT)
 #undef PAIRSUM_AT
   return {};
