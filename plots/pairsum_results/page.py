@@ -24,7 +24,7 @@ try:
 except ImportError as problem:
     raise ResultsError(f"the page needs jinja2 for {sys.executable}: {problem} (Debian: python3-jinja2)") from None
 
-_HERE = pathlib.Path(__file__).parent / "page"
+_HERE = pathlib.Path(__file__).parent / "html"
 #: Colours that change in the dark -> the page's CSS variable; all others stay.
 _VARIABLES = {INK: "--ink", MUTED: "--muted", RULE: "--rule", GRID: "--grid", BACKENDS["naive"]: "--black"}
 

@@ -1,6 +1,4 @@
 """What each figure draws equals the tables; no text lies on another; colours mean the same everywhere."""
-import pathlib
-
 import artists
 import made
 import numpy as np
@@ -36,16 +34,16 @@ def draw(drawing, report, look=PAGE):
     return figure
 
 
-def first(drawing, report):
-    """The axes of the first panel."""
-    return draw(drawing, report).axes[0]
+def first(drawing, report, title=""):
+    """The axes of the first panel with this in its title."""
+    return next(axes for name, axes in artists.panels(draw(drawing, report)).items() if title in name)
 
 
 def test_every_figure_can_be_drawn_and_says_what_it_needs(full, two):
     assert all(figures.draw(d, full) for d in figures.ALL)
     missing = [d for d in figures.ALL if figures.draw(d, two) is None]
-    assert {d.name for d in missing} == {"efficiency", "barrier_wait", "size_scaling", "granularity", "compilers", "self_test",
-                                         "strategy_worlds"}
+    assert {d.name for d in missing} == {"efficiency", "barrier_wait", "size_scaling", "granularity", "compilers",
+                                         "self_test", "strategy_worlds"}
     assert all(d.needs for d in missing)
 
 
@@ -66,7 +64,7 @@ def test_speedups_on_many_threads_are_lines(full, drawing, value):
     table = full.speedup[(full.speedup["series"] == 0) & (full.speedup["M"] == 7)]
     wanted = {backend: [(t, pytest.approx(v)) for t, v in zip(own["threads"], own[value])]
               for backend, own in table.groupby("backend")}
-    (axes,) = [axes for title, axes in artists.panels(draw(drawing, full)).items() if "hashed_grid M=7" in title]
+    axes = first(drawing, full, "hashed_grid M=7")
     drawn = artists.lines(axes)
     assert {name: drawn[name] for name in wanted} == wanted
     assert [x for x, _ in drawn["ideal"]] == list(axes.get_xticks()) == [1, 2, 4, 8, 16]
@@ -99,7 +97,7 @@ def test_the_ladder_stacks_the_parts_of_each_backend_at_its_best_fastest_first(t
 
 
 def test_phases_add_up(two):
-    axes = artists.panels(draw(bars.PHASE_SPLIT, two))["1 thread"]
+    axes = first(bars.PHASE_SPLIT, two)
     points = two.points[two.points["threads"] == 1].sort_values("total_s")
     assert len(artists.names(axes)) == len(points)
     left = 0.0
@@ -125,31 +123,29 @@ def test_waits_are_stacked_on_the_work_of_each_thread(full):
 
 
 def test_lines_over_m_are_the_points_and_coincide_once(full):
-    shown = artists.panels(draw(over.M_COMPARISON, full))
     table = full.m_comparison[(full.m_comparison["series"] == 0) & (full.m_comparison["threads"] == 16)]
-    times = next(axes for title, axes in shown.items() if title.endswith("16 threads"))
-    for backend, own in table[table["granularity"].isin(["dynamic:32", "auto:32"]) & (table["block"] == "none")].groupby("backend"):
-        assert artists.lines(times)[backend] == [(m, pytest.approx(t)) for m, t in zip(own["M"], own["sum_s"])]
-    tests = next(axes for title, axes in shown.items() if title.endswith("candidate tests"))
+    drawn = artists.lines(first(over.M_COMPARISON, full, "16 threads"))
+    for backend, own in table[table["granularity"].isin(["dynamic:32", "auto:32"])].groupby("backend"):
+        assert drawn[backend] == [(m, pytest.approx(t)) for m, t in zip(own["M"], own["sum_s"])]
+    tests = first(over.M_COMPARISON, full, "candidate tests")
     assert list(artists.lines(tests)) == ["naive_omp, naive_tbb and 2 more"]
 
 
 def test_the_roofline_has_every_point_and_the_measured_roof(full):
-    axes = next(axes for title, axes in artists.panels(draw(roofline.ROOFLINE, full)).items() if title.endswith("16 threads"))
+    axes = first(roofline.ROOFLINE, full, "16 threads")
     points = full.points[(full.points["series"] == 0) & (full.points["threads"] == 16)]
-    spots = sorted((x, y) for name, own in artists.lines(axes).items() if name != "roof" for x, y in own)
-    every = sorted(tuple(line.get_xydata()[0]) for line in axes.lines if line.get_label() != "roof")
-    assert set(spots) <= set(every) and len(every) == len(points)
-    assert [y for _, y in every] == pytest.approx(sorted(points["achieved_flops_per_s"] / 1e9))
+    every = [line.get_xydata()[0] for line in axes.lines if line.get_label() != "roof"]
+    assert sorted(y for _, y in every) == pytest.approx(sorted(points["achieved_flops_per_s"] / 1e9))
     (x0, y0), (x1, y1), (_, y2) = artists.lines(axes)["roof"]
     assert y1 == y2 == pytest.approx(16**0.95) and y0 / x0 == pytest.approx(y1 / x1) == pytest.approx(2 * 16**0.5)
 
 
 def test_sizes_and_granularities_are_lines(full):
-    axes = next(axes for title, axes in artists.panels(draw(over.SIZE_SCALING, full)).items()
-                if title == "each at its most threads: time per sum")
-    best = full.points[(full.points["threads"] == 16) & (full.points["backend"] == "naive_omp")].groupby("n_fluid")["sum_s"].min()
-    assert artists.lines(axes)["naive_omp"] == [(190000, pytest.approx(best[100000])), (2014966, pytest.approx(best[1000000]))]
+    axes = first(over.SIZE_SCALING, full, "each at its most threads: time per sum")
+    own = full.points[(full.points["threads"] == 16) & (full.points["backend"] == "naive_omp")]
+    best = own.groupby("n_fluid")["sum_s"].min()
+    assert artists.lines(axes)["naive_omp"] == [(190000, pytest.approx(best[100000])),
+                                                (2014966, pytest.approx(best[1000000]))]
     drawn = artists.lines(first(over.GRANULARITY, full))
     assert [x for x, _ in drawn["dynamic"]] == [32, 64] and [x for x, _ in drawn["static"]] == [8, 64]
     assert len({y for _, y in drawn["guided"]}) == 1
@@ -166,16 +162,19 @@ def test_ratios_are_dots_with_intervals_and_a_word(full, drawing, table):
 
 
 def test_strategies_are_the_ladder(full):
-    axes = next(axes for title, axes in artists.panels(draw(strategies.LADDER, full)).items() if "1 thread; base naive_omp" in title)
+    axes = first(strategies.LADDER, full, "1 thread; base naive_omp")
     own = full.ladder[(full.ladder["series"] == 0) & (full.ladder["at"] == "one_thread")]
     own = own[~own["backend"].str.match("again|slowed")]
     assert [right for _, right in artists.bars(axes, "ratio")] == pytest.approx(list(own["ratio"]))
     assert [name.split(",")[0] for name in artists.names(axes)] == list(own["backend"])
-    axes = first(strategies.THREADS, full)
-    table = full.over_threads[(full.over_threads["series"] == 0) & (full.over_threads["backend"] == "naive_omp")]
-    assert [x for n in (1, 2, 4, 8, 16) for x, _ in artists.lines(axes)[f"naive_omp {n} thr."]] == pytest.approx(list(table["ratio"]))
-    drawn = artists.lines(first(strategies.WORLDS, full))
-    assert len(drawn) == full.ladder["world"].nunique() + 1  # and that of equals
+    most, more = full.ladder[full.ladder["at"] == "most_threads"], full.over_threads[full.over_threads["series"] == 0]
+    more = more[more.groupby("backend")["threads"].transform("max") > 1]
+    for drawing, table, by in ((strategies.THREADS, more, "threads"), (strategies.WORLDS, most, "world")):
+        axes = first(drawing, full)
+        drawn = [line for line in axes.lines if line.get_label() != "equal"]
+        assert len(drawn) == table[by].nunique()
+        spots = [(artists.names(axes)[round(y)], x) for line in drawn for x, y in line.get_xydata()]
+        assert sorted(spots) == [(b, pytest.approx(r)) for b, r in sorted(zip(table["backend"], table["ratio"]))]
 
 
 @pytest.mark.parametrize("look", [Look(), PAGE, NARROW, PAPER], ids=["file", "page", "narrow", "paper"])

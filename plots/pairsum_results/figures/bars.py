@@ -20,21 +20,22 @@ _PARTS = {"prepare_s": 0.6, "zero_s": 0.85, "sum_s": 0.0, "reduce_s": -0.45}
 def _ladder(report: Report) -> list[Panel]:
     points = report.points[report.points["pairs_interacting"] > 0].dropna(subset=[EVALUATION])
     nanoseconds = points[[EVALUATION, *_PARTS]].mul(1e9 / points["pairs_interacting"], axis=0)
-    columns = [(title, nanoseconds.loc[some.index], named(some), some["backend"])
+    names = pd.Series(named(points), points.index)  # with what tells them from others of their backend
+    columns = [(title, nanoseconds.loc[some.index], names[some.index], some["backend"])
                for title, some in fastest(points, EVALUATION)] if len(points) else []
     right = max((table[list(_PARTS)].sum(axis=1).max() for _, table, *_ in columns), default=0)
 
     def paint(axes: Axes, table: pd.DataFrame, names: list[str], backends: pd.Series) -> None:
         at, left = name_rows(axes, names), np.zeros(len(table))
         for part, towards in _PARTS.items():
-            boxes(axes, at, left, table[part], label=part, edgecolor=style.INK, linewidth=0.5,
+            boxes(axes, at, left, table[part], label=part, **style.BOX,
                   facecolor=[style.shade(style.colour(backend), towards) for backend in backends])
             left = left + table[part].to_numpy()
         beside(axes, left, at, [f"{digits(a)} ({digits(s)})" for a, s in zip(table[EVALUATION], table["sum_s"])])
         axes.set(xlim=(0, 1.02 * right), xlabel="time per interacting pair [ns]")
 
-    key = [Patch(label=part.removesuffix("_s"), facecolor=style.shade(style.MUTED, towards), edgecolor=style.INK,
-                 linewidth=0.5) for part, towards in _PARTS.items()]
+    key = [Patch(label=part.removesuffix("_s"), facecolor=style.shade(style.MUTED, towards), **style.BOX)
+           for part, towards in _PARTS.items()]
     return [Panel(title, lambda axes, how=how: paint(axes, *how), len(how[0]), key) for title, *how in columns]
 
 
@@ -53,6 +54,7 @@ def _phase_split(report: Report) -> list[Panel]:
         own = points[pairs.isin(best.set_index(["backend", "threads"]).index)]
         columns.append((title, usual(own, "total_s").sort_values("total_s")))
     right = max((own["total_s"].max() for _, own in columns), default=0) * 1e3
+    whole = {"color": style.INK, "marker": "|", "markersize": 9, "markeredgewidth": 1.6, "linestyle": ""}
 
     def paint(axes: Axes, own: pd.DataFrame) -> None:
         at, left = name_rows(axes, named(own)), np.zeros(len(own))
@@ -60,14 +62,12 @@ def _phase_split(report: Report) -> list[Panel]:
             length = 1e3 * own[phase].fillna(0).to_numpy()
             boxes(axes, at, left, length, color=colour, linewidth=0, label=phase)
             left = left + length
-        axes.plot(1e3 * own["total_s"], at, color=style.INK, marker="|", markersize=9, markeredgewidth=1.6,
-                  linestyle="", label="total_s")
+        axes.plot(1e3 * own["total_s"], at, label="total_s", **whole)
         few(axes.xaxis)
         axes.set(xlim=(0, 1.02 * right), xlabel="time per step [ms]")
 
     key = [Patch(facecolor=colour, label=phase.removesuffix("_s")) for phase, colour in style.PHASES.items()]
-    key.append(Line2D([], [], color=style.INK, marker="|", linestyle="", markersize=9, markeredgewidth=1.6,
-                      label="whole step"))
+    key.append(Line2D([], [], label="whole step", **whole))
     return [Panel(title, lambda axes, own=own: paint(axes, own), len(own), key) for title, own in columns]
 
 

@@ -14,7 +14,7 @@ from .sheet import Panel
 
 def _line(axes: Axes, x: pd.Series, y: pd.Series, backend: str, **how) -> None:
     axes.plot(x, y, **{"color": style.colour(backend), "linestyle": style.line(backend), "label": backend, "zorder": 3,
-                       "marker": "o", "markeredgecolor": style.INK, "markeredgewidth": 0.5, **how})
+                       "marker": "o", **style.EDGE, **how})
 
 
 #: What does not depend on threads: column -> (title, label, logarithmic).

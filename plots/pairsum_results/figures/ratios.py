@@ -1,34 +1,14 @@
 """Ratios with their intervals as rows of dots: builds against each other, and what the harness says of known ratios."""
-import pandas as pd
-from matplotlib.axes import Axes
-
 from ..reports import Report
-from . import style
-from .marks import dots, name_rows, reference
 from .parts import Drawing, named
-from .sheet import Panel
-
-
-def _dots(axes: Axes, own: pd.DataFrame, names: list[str], said: list[str], label: str, limits: pd.Series) -> None:
-    """Rows of dots with a word behind each."""
-    rows = name_rows(axes, names)
-    reference(axes, 1.0, label="equal")
-    if "expected" in own:
-        axes.scatter(own["expected"], rows, marker="|", s=220, linewidths=2.2, color=style.INK, zorder=2,
-                     label="expected")
-    dots(axes, rows, own, label)
-    room = 0.06 * (max(limits.max(), 1) - min(limits.min(), 1)) or 0.05
-    axes.set_xlim(min(limits.min(), 1) - room, max(limits.max(), 1) + room)
-    for at, text in zip(rows, said):
-        axes.annotate(text, (1, at), xycoords=("axes fraction", "data"), xytext=(8, 0), textcoords="offset points",
-                      va="center", fontsize="small", annotation_clip=False)
+from .sheet import Panel, ratio_rows
 
 
 def _compilers(report: Report) -> list[Panel]:
-    table, label = report.compiler_comparison.dropna(subset=["ratio"]), "time of the base / time (right of 1: faster)"
-    return [Panel(f"{build}\nagainst {base}", lambda axes, own=own: _dots(
-        axes, own, named(own), list(own["verdict"]), label, table[["ratio", "low", "high"]].stack()), len(own))
-        for (build, base), own in table.groupby(["build", "base_build"], sort=False)]
+    table = report.compiler_comparison.dropna(subset=["ratio"])
+    return [ratio_rows(f"{build}\nagainst {base}", own, named(own), own["verdict"], table,
+                       "time of the base / time (right of 1: faster)")
+            for (build, base), own in table.groupby(["build", "base_build"], sort=False)]
 
 
 COMPILERS = Drawing(
@@ -44,9 +24,8 @@ def _self_test(report: Report) -> list[Panel]:
         return []
     table = table.assign(backend=table["base_backend"], isa="")  # a copy has the name and the colour of what it copies
     names = [f"{what}: {place}" for what, place in zip(table["what"], named(table))]
-    said = ["holds" if holds else "DOES NOT HOLD" for holds in table["holds"]]
-    limits = table[["expected", "ratio", "low", "high"]].astype(float).stack()
-    return [Panel("", lambda axes: _dots(axes, table, names, said, "time / time of the base", limits), len(table))]
+    said = table["holds"].map({True: "holds", False: "DOES NOT HOLD"})
+    return [ratio_rows("", table, names, said, table, "time / time of the base")]
 
 
 SELF_TEST = Drawing(

@@ -3,15 +3,17 @@ import dataclasses
 import math
 import re
 import textwrap
-from typing import Any, Callable
+from typing import Any, Callable, Iterable
 
 import numpy as np
+import pandas as pd
 from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from .style import MUTED, Look
+from . import marks
+from .style import INK, MUTED, Look
 
 ROW = 0.024  #: inches of a row of text, per point of the font
 
@@ -89,21 +91,34 @@ def _wrapped(key: list[Any], width: float) -> tuple[int, int]:
     return math.ceil(len(key) / max(rows, 1)), rows * max(map(len, lines), default=0)
 
 
+def ratio_rows(title: str, own: pd.DataFrame, names: Iterable[str], said: Iterable[str], every: pd.DataFrame,
+               label: str) -> Panel:
+    """Rows of ratios with their intervals, where there are such what was "expected", and a word behind each; the axis
+    spans `every` line, of other panels too."""
+    limits = [1.0, *every[[c for c in ("ratio", "low", "high", "expected") if c in every]].astype(float).stack()]
+    edge = 0.06 * (max(limits) - min(limits)) or 0.05
+
+    def paint(axes: Axes) -> None:
+        rows = marks.name_rows(axes, names)
+        marks.reference(axes, 1.0, label="equal")
+        if "expected" in own:
+            axes.scatter(own["expected"], rows, marker="|", s=220, linewidths=2.2, color=INK, label="expected")
+        marks.dots(axes, rows, own, label)
+        axes.set_xlim(min(limits) - edge, max(limits) + edge)
+        marks.beside(axes, [max(limits) + edge] * len(own), rows, said)
+
+    return Panel(title, paint, len(own))
+
+
 def _spread(axes: Axes, font: float) -> None:
-    """Moves the labels of line ends apart to their height, as little as possible (isotonic regression)."""
-    labels = [text for text in axes.texts if text.get_gid() == "end"]
-    step = 0.0175 * font * axes.figure.dpi / axes.get_window_extent().height
+    """Moves the labels of line ends apart: up as far as they need, then down as far as there is no room."""
     to_panel = axes.transData + axes.transAxes.inverted()
-    wanted = sorted(((min(max(to_panel.transform(text.xy)[1], 0), 1), text) for text in labels),
-                    key=lambda pair: pair[0])
-    blocks: list[list[float]] = []  # sum and number of wanted[k] - k step
-    for k, (at, _) in enumerate(wanted):
-        blocks.append([at - k * step, 1])
-        while len(blocks) > 1 and blocks[-2][0] / blocks[-2][1] > blocks[-1][0] / blocks[-1][1]:
-            total, count = blocks.pop()
-            blocks[-1] = [blocks[-1][0] + total, blocks[-1][1] + count]
-    last = 1 - (len(wanted) - 1) * step
-    low = min(0.0, last / 2) if last < 0 else 0.0
-    places = [min(max(total / count, low), max(last, low)) for total, count in blocks for _ in range(int(count))]
-    for k, (place, (_, text)) in enumerate(zip(places, wanted)):
-        text.set_position((1, place + k * step))
+    labels = sorted((to_panel.transform(text.xy)[1], k) for k, text in enumerate(axes.texts) if text.get_gid() == "end")
+    step = 0.0175 * font * axes.figure.dpi / axes.get_window_extent().height
+    at = np.clip([y for y, _ in labels], 0, 1)
+    for k in range(1, len(at)):
+        at[k] = max(at[k], at[k - 1] + step)
+    for k, most in zip(range(len(at) - 1, -1, -1), 1 - step * np.arange(len(at))):
+        at[k] = min(at[k], most)
+    for y, (_, k) in zip(at, labels):
+        axes.texts[k].set_position((1, y))

@@ -1,5 +1,6 @@
 """How threads are kept apart: ladders of strategies, over threads, and from world to world."""
-import numpy as np
+from itertools import cycle
+
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -17,7 +18,7 @@ def _colours(report: Report, backends: pd.Series) -> tuple[list[str], list[Patch
     """The colours of how backends keep threads apart, or their own where that is not known, and the legend."""
     kinds = report.results.backends["conflicts"].reindex(backends)
     known = [style.KINDS.get(kind) for kind in kinds]
-    key = [Patch(label=kind, facecolor=colour, edgecolor=style.INK, linewidth=0.5)
+    key = [Patch(label=kind, facecolor=colour, **style.BOX)
            for kind, colour in style.KINDS.items() if kind in set(kinds)]
     return [colour or style.colour(backend) for colour, backend in zip(known, backends)], key
 
@@ -30,8 +31,7 @@ def _ladder(report: Report) -> list[Panel]:
         reference(axes, 1.0, label="equal")
         at = name_rows(axes, [", ".join(filter(None, (e.backend, "" if pd.isna(e.M) else f"M={e.M:.0f}"))) + (
             f", {e.threads} thr." if e.at == "most_threads" else "") for e in own.itertuples()])
-        boxes(axes, at, 0, own["ratio"], label="ratio", facecolor=_colours(report, own["backend"])[0],
-              edgecolor=style.INK, linewidth=0.5)
+        boxes(axes, at, 0, own["ratio"], label="ratio", facecolor=_colours(report, own["backend"])[0], **style.BOX)
         for width, colour in ((3.6, "white"), (1.6, style.INK)):
             axes.hlines(at, own["low"], own["high"], color=colour, linewidth=width)
         reach = own[["ratio", "high"]].max(axis=1).clip(upper=right)
@@ -57,39 +57,43 @@ LADDER = Drawing(
     "a gather and two more backends", _ladder, strategies=True)
 
 
-def _threads(report: Report) -> list[Panel]:
-    table = report.over_threads
-    counts = sorted(set(table["threads"]))
-    if not counts or counts[-1] < 2:
-        return []
-    best = table[table["threads"] > 1].groupby("backend")["ratio"].max().sort_values(ascending=False)
-    table = table[table["backend"].isin(best.index)]
-    looks = {count: (mark, towards) for count, (mark, _), towards in zip(
-        counts, style.MARKS, np.linspace(0.75, 0, len(counts)))}
-    looks |= {count: ("o", 0.0) for count in counts if count not in looks}
+def _marked(table: pd.DataFrame, column: str, label: str, title: str, apart: float) -> list[Panel]:
+    """Rows of backends with a marker for each value of the column, `apart` of a row from the first to the last so that
+    none hides another, and a line from the least to the greatest."""
+    backends, looks = list(dict.fromkeys(table["backend"])), dict(zip(dict.fromkeys(table[column]), cycle(style.MARKS)))
 
     def paint(axes: Axes) -> None:
         reference(axes, 1.0, label="equal")
-        for up, backend in zip(name_rows(axes, best.index), best.index):
-            own, colour = table[table["backend"] == backend].sort_values("threads"), style.colour(backend)
-            axes.plot(own["ratio"], np.full(len(own), up), color=colour, linewidth=1.4, zorder=2, label=backend)
-            for e in own.itertuples():
-                mark, towards = looks[e.threads]
-                axes.plot([e.low, e.high], [up, up], color=colour, linewidth=3.4, alpha=0.45, zorder=2)
-                axes.plot(e.ratio, up, marker=mark, color=style.shade(colour, towards), markeredgecolor=style.INK,
-                          markeredgewidth=0.5, linestyle="", zorder=3, label=f"{backend} {e.threads} thr.")
+        rows = dict(zip(backends, name_rows(axes, backends)))
+        reach = table.groupby("backend")["ratio"].agg(["min", "max"])
+        axes.hlines(reach.index.map(rows), reach["min"], reach["max"], color=style.RULE, linewidth=1, zorder=1)
+        for k, (what, (mark, colour)) in enumerate(looks.items()):
+            own = table[table[column] == what]
+            at = own["backend"].map(rows) + apart * (k / max(len(looks) - 1, 1) - 0.5)
+            axes.hlines(at, own["low"], own["high"], color=colour, linewidth=2, zorder=2)
+            axes.plot(own["ratio"], at, marker=mark, color=colour, linestyle="", zorder=3, label=what, **style.EDGE)
         log(axes, "x", [*table[["ratio", "low", "high"]].stack(), 1.0])
-        axes.set_xlabel("times as fast as the base on 1 thread")
+        axes.set_xlabel(label)
 
-    key = [Line2D([], [], marker=looks[n][0], color=style.shade(style.MUTED, looks[n][1]), markeredgecolor=style.INK,
-                  markeredgewidth=0.5, linestyle="", label=words.threads_words(n)) for n in counts]
-    return [Panel(f"base {table['base_backend'].iloc[0]}, 1 thread", paint, len(best), key)]
+    key = [Line2D([], [], marker=mark, color=colour, linestyle="", label=what, **style.EDGE)
+           for what, (mark, colour) in looks.items()]
+    return [Panel(title, paint, (1 + apart) * len(backends), key)]
+
+
+def _threads(report: Report) -> list[Panel]:
+    table = report.over_threads
+    gains = table[table["threads"] > 1].groupby("backend")["ratio"].max()
+    table = table[table["backend"].isin(gains.index)].assign(gain=lambda t: t["backend"].map(gains))
+    table = table.sort_values(["gain", "backend", "threads"], ascending=[False, True, True])
+    table["on"] = table["threads"].map(words.threads_words)
+    return _marked(table, "on", "times as fast as the base on 1 thread",
+                   f"base {table['base_backend'].iloc[0]}, 1 thread", 0.0) if len(table) else []
 
 
 THREADS = Drawing(
     "strategy_threads", "Strategies over threads",
     "Times as fast as the base on one thread: a marker per number of threads; the further apart they are, the more "
-    "threads gain. Thick: 95\u00a0% intervals.",
+    "threads gain. Coloured lines: 95\u00a0% intervals.",
     "strategies on several threads", _threads, strategies=True)
 
 
@@ -97,32 +101,14 @@ def _worlds(report: Report) -> list[Panel]:
     table = report.ladder
     high = table.loc[table["at"] == "most_threads", "series"]
     table = table[(table["at"] == "most_threads") | ~table["series"].isin(high)]
-    worlds = list(dict.fromkeys(table["world"]))
-    if len(worlds) < 2:
+    if table["world"].nunique() < 2:
         return []
-    backends = list(dict.fromkeys(table["backend"]))
-    looks = {world: style.MARKS[k % len(style.MARKS)] for k, world in enumerate(worlds)}
-
-    def paint(axes: Axes) -> None:
-        reference(axes, 1.0, label="equal")
-        rows = dict(zip(backends, name_rows(axes, backends)))
-        for k, (world, own) in enumerate(table.groupby("world", sort=False)):
-            mark, colour = looks[world]
-            at = own["backend"].map(rows) + 0.5 * (k / (len(worlds) - 1) - 0.5)  # so that none hides another
-            axes.hlines(at, own["low"], own["high"], color=colour, linewidth=2, zorder=2)
-            axes.plot(own["ratio"], at, marker=mark, color=colour, linestyle="", markeredgecolor=style.INK,
-                      markeredgewidth=0.5, zorder=3, label=world)
-        log(axes, "x", [*table[["ratio", "low", "high"]].stack(), 1.0])
-        axes.set_xlabel("times as fast as the base on as many threads")
-
-    key = [Line2D([], [], marker=mark, color=colour, markeredgecolor=style.INK, markeredgewidth=0.5, linestyle="",
-                  label=world) for world, (mark, colour) in looks.items()]
-    return [Panel(f"base {', '.join(sorted(set(table['base_backend'])))}; each at its most threads", paint,
-                  1.5 * len(backends), key)]
+    return _marked(table, "world", "times as fast as the base on as many threads",
+                   f"base {', '.join(sorted(set(table['base_backend'])))}; each at its most threads", 0.5)
 
 
 WORLDS = Drawing(
     "strategy_worlds", "From world to world",
-    "Each backend against the base in every world, with 95\u00a0% intervals: markers far to the left of its others "
-    "are where it breaks down.",
+    "Each backend against the base in every world, with 95\u00a0% intervals (coloured lines): markers far to the "
+    "left of its others are where it breaks down.",
     "strategies in several worlds", _worlds, each=False, strategies=True)

@@ -34,6 +34,8 @@ PHASES = {"index_s": "#56B4E9", "prepare_s": "#8C4A76", "zero_s": "#F0E442", "su
 #: Markers of worlds, of numbers of threads.
 MARKS = (("o", "#0072B2"), ("s", "#D55E00"), ("D", "#009E73"), ("^", "#CC79A7"), ("v", "#7A4B1E"), ("P", "#6A5ACD"),
          ("X", "#56B4E9"), ("<", "#E69F00"))
+EDGE = {"markeredgecolor": INK, "markeredgewidth": 0.6}  #: of markers
+BOX = {"edgecolor": INK, "linewidth": 0.5}  #: of bars
 _OF_M = {5: "v", 6: "o", 7: "s", 8: "D", 9: "^", 4: "<", 10: ">"}
 
 

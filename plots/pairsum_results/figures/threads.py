@@ -9,9 +9,9 @@ from matplotlib.lines import Line2D
 from .. import words
 from ..reports import Report
 from . import style
-from .marks import at, beside, dots, ends, intervals, name_rows, reference, room, threads_axis
+from .marks import at, dots, ends, intervals, name_rows, reference, room, threads_axis
 from .parts import Drawing, named, usual
-from .sheet import Panel
+from .sheet import Panel, ratio_rows
 
 #: Numbers of threads from which lines over threads say more than rows of dots.
 _LINES_FROM = 3
@@ -29,8 +29,7 @@ def _lines(table: pd.DataFrame, value: str, label: str, grey: Callable[[pd.DataF
         for name, line in own.groupby("name", sort=False):
             line, colour = line.sort_values("threads"), style.colour(line["backend"].iloc[0])
             axes.plot(line["threads"], line[value], color=colour, linestyle=style.line(line["backend"].iloc[0]),
-                      marker=style.marker(line["M"].iloc[0]), markeredgecolor=style.INK, markeredgewidth=0.6,
-                      label=name)
+                      marker=style.marker(line["M"].iloc[0]), label=name, **style.EDGE)
             if value == "ratio":
                 intervals(axes, line["threads"], line[value], line["low"], line["high"], colour)
             labels.append((line["threads"].iloc[-1], line[value].iloc[-1], name, colour))
@@ -135,13 +134,8 @@ def _algorithm_speedup(report: Report) -> list[Panel]:
         return _lines(table, "ratio", "time of the base / time",
                       lambda own: [("base", "--", counts, [1.0] * len(counts))], _linear(table, ["ratio", "high"]))
 
-    def paint(axes: Axes, own: pd.DataFrame) -> None:
-        reference(axes, 1.0, label="equal")
-        rows = name_rows(axes, own["name"] + " / " + own["base_name"])
-        dots(axes, rows, own, "time of the base / time")
-        beside(axes, own[["ratio", "high"]].max(axis=1), rows, own["ratio"].map("{:.2f}".format))
-
-    return [Panel(words.threads_words(count), lambda axes, own=own: paint(axes, own), len(own))
+    return [ratio_rows(words.threads_words(count), own, own["name"] + " / " + own["base_name"],
+                       own["ratio"].map("{:.2f}".format), own, "time of the base / time")
             for count, own in table.sort_values("ratio", ascending=False).groupby("threads")]
 
 
