@@ -1,6 +1,7 @@
 """The programs: `python3 -m pairsum_results report FILE...`, `compare A B` and `history`."""
 import argparse
 import pathlib
+import signal
 import sys
 
 from .rows import PHASES, ResultsError
@@ -121,4 +122,5 @@ def _history(options: argparse.Namespace) -> int:
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # whoever reads the output may stop: report FILE | head
     sys.exit(main())

@@ -164,3 +164,9 @@ def test_every_committed_summary_keeps_its_schema():
     assert len(paths) > 5
     for path in paths:
         jsonschema.validate(json.loads(path.read_text()), SCHEMA)
+
+
+def test_whoever_reads_the_output_may_stop(rows, tmp_path):
+    command = f"{sys.executable} -m pairsum_results report --tables {rows(made.talk())} --out {tmp_path} | head -n 1"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=ROOT / "plots")
+    assert done.stdout.count("\n") == 1 and done.stderr == ""
