@@ -69,10 +69,15 @@ def intervals(axes: Axes, x: Any, y: Any, low: Any, high: Any, colour: str) -> N
         axes.errorbar(x, y, yerr=reach, fmt="none", ecolor=colour, elinewidth=1.1, capsize=3)
 
 
+def spans(axes: Axes, at: Any, table: Any, **look: Any) -> None:
+    """The intervals of ratios as lines along x, of no length where none is known."""
+    axes.hlines(at, table["low"].fillna(table["ratio"]), table["high"].fillna(table["ratio"]), **look)
+
+
 def dots(axes: Axes, at: Any, table: Any, label: str) -> None:
     """Dots with their intervals on rows of names: columns "ratio", "low", "high" and, for the colour, "backend"."""
     colours = list(map(colour, table["backend"]))
-    axes.hlines(at, table["low"], table["high"], color=colours, linewidth=2.4, zorder=3)
+    spans(axes, at, table, color=colours, linewidth=2.4, zorder=3)
     axes.scatter(table["ratio"], at, c=colours, s=(0.62 * rcParams["font.size"]) ** 2, edgecolors=INK, linewidths=0.6,
                  zorder=4)
     axes.set_xlabel(label)

@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 from .. import words
 from ..reports import Report
 from . import style
-from .marks import beside, boxes, few, log, name_rows, reference
+from .marks import beside, boxes, few, log, name_rows, reference, spans
 from .parts import Drawing, digits
 from .sheet import Panel
 
@@ -33,7 +33,7 @@ def _ladder(report: Report) -> list[Panel]:
             f", {e.threads} thr." if e.at == "most_threads" else "") for e in own.itertuples()])
         boxes(axes, at, 0, own["ratio"], label="ratio", facecolor=_colours(report, own["backend"])[0], **style.BOX)
         for width, colour in ((3.6, "white"), (1.6, style.INK)):
-            axes.hlines(at, own["low"], own["high"], color=colour, linewidth=width)
+            spans(axes, at, own, color=colour, linewidth=width)
         reach = own[["ratio", "high"]].max(axis=1).clip(upper=right)
         beside(axes, reach, at, [f"{e.ratio:.2f} ({digits(1e3 * e.time_s)} ms)" for e in own.itertuples()])
         axes.set(xlim=(0, 1.02 * max(right, 1)), xlabel="times as fast as the base")
@@ -70,7 +70,7 @@ def _marked(table: pd.DataFrame, column: str, label: str, title: str, apart: flo
         for k, (what, (mark, colour)) in enumerate(looks.items()):
             own = table[table[column] == what]
             at = own["backend"].map(rows) + apart * (k / max(len(looks) - 1, 1) - 0.5)
-            axes.hlines(at, own["low"], own["high"], color=colour, linewidth=2, zorder=2)
+            spans(axes, at, own, color=colour, linewidth=2, zorder=2)
             axes.plot(own["ratio"], at, marker=mark, color=colour, linestyle="", zorder=3, label=what, **style.EDGE)
         log(axes, "x", [*table[["ratio", "low", "high"]].stack(), 1.0])
         axes.set_xlabel(label)
