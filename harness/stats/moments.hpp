@@ -23,19 +23,14 @@ inline double mean(std::span<const double> values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Sum of the squared distances from the mean, in two passes (Chan, Golub, LeVeque, Am. Stat. 37 (1983) 242).
-/// Throws like mean.
-inline double squared_deviations(std::span<const double> values) {
+/// Unbiased sample variance, with n - 1, in two passes (Chan, Golub, LeVeque, Am. Stat. 37 (1983) 242). Throws
+/// pairsum::error below two values, else like mean.
+inline double sample_variance(std::span<const double> values) {
+  if (values.size() < 2) throw error("a variance needs at least two values");
   const double centre = mean(values);
   double sum = 0;
   for (const double value : values) sum += (value - centre) * (value - centre);
-  return sum;
-}
-
-/// Unbiased sample variance, with n - 1. Throws pairsum::error below two values, else like mean.
-inline double sample_variance(std::span<const double> values) {
-  if (values.size() < 2) throw error("a variance needs at least two values");
-  return squared_deviations(values) / static_cast<double>(values.size() - 1);
+  return sum / static_cast<double>(values.size() - 1);
 }
 
 }  // namespace pairsum::harness

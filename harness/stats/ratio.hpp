@@ -36,19 +36,6 @@ inline std::vector<double> logs_of(std::span<const double> values) {
   return logs;
 }
 
-/// Adds the interval exp(log_ratio -+ t standard_error) and the p-value of log_ratio = 0. Without any scatter the
-/// interval is the value itself.
-inline void add_student_t(ratio_estimate& r, double log_ratio, double standard_error, double freedom, double level) {
-  if (!(standard_error > 0)) {
-    r.bounds = interval{r.value, r.value, level};
-    r.p_value = log_ratio == 0 ? 1 : 0;
-    return;
-  }
-  const double reach = student_t_quantile((1 + level) / 2, freedom) * standard_error;
-  r.bounds = interval{std::exp(log_ratio - reach), std::exp(log_ratio + reach), level};
-  r.p_value = student_t_two_sided(log_ratio / standard_error, freedom);
-}
-
 }  // namespace detail
 
 /// The ratio of values that were measured together: base[i] and other[i] belong to the same round, so that what
@@ -70,7 +57,15 @@ inline ratio_estimate paired_ratio(std::span<const double> base, std::span<const
   ratio_estimate r{std::exp(log_ratio), {}, logs.size(), {}};
   if (logs.size() < fewest_for_ratio) return r;
   const double n = static_cast<double>(logs.size());
-  detail::add_student_t(r, log_ratio, std::sqrt(sample_variance(logs) / n), n - 1, level);
+  const double standard_error = std::sqrt(sample_variance(logs) / n);
+  if (!(standard_error > 0)) {  // no scatter: the interval is the value itself
+    r.bounds = interval{r.value, r.value, level};
+    r.p_value = log_ratio == 0 ? 1 : 0;
+    return r;
+  }
+  const double reach = student_t_quantile((1 + level) / 2, n - 1) * standard_error;
+  r.bounds = interval{std::exp(log_ratio - reach), std::exp(log_ratio + reach), level};
+  r.p_value = student_t_two_sided(log_ratio / standard_error, n - 1);
   return r;
 }
 

@@ -34,11 +34,6 @@ double student_t_two_sided(double t, double freedom) {
   return Eigen::numext::betainc(freedom / 2, 0.5, freedom / (freedom + square));
 }
 
-double student_t_cdf(double t, double freedom) {
-  const double tail = student_t_two_sided(t, freedom) / 2;
-  return t < 0 ? tail : 1 - tail;
-}
-
 double student_t_quantile(double probability, double freedom) {
   check_freedom(freedom);
   if (!(probability > 0 && probability < 1)) throw error("a quantile's probability should lie between 0 and 1");

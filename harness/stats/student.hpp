@@ -2,12 +2,10 @@
 
 namespace pairsum::harness {
 
-/// P(T <= t) of Student's t with `freedom` > 0 degrees of freedom (not necessarily a whole number), by the regularised
-/// incomplete beta function (Abramowitz & Stegun, Handbook of Mathematical Functions, eq. 26.7.1 with 26.5.27).
-/// Throws pairsum::error unless freedom is positive and finite and t is a number; t may be infinite.
-double student_t_cdf(double t, double freedom);
-
-/// P(|T| >= |t|): the two-sided p-value of t. Accurate where 1 - cdf would cancel. Throws like student_t_cdf.
+/// P(|T| >= |t|), the two-sided p-value of t, of Student's t with `freedom` > 0 degrees of freedom (not necessarily a
+/// whole number), by the regularised incomplete beta function (Abramowitz & Stegun, Handbook of Mathematical Functions,
+/// eq. 26.7.1 with 26.5.27). Accurate where 1 - cdf would cancel. Throws pairsum::error unless freedom is positive and
+/// finite and t is a number; t may be infinite.
 double student_t_two_sided(double t, double freedom);
 
 /// The t with P(T <= t) = probability, by Newton's method. Throws pairsum::error unless
