@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is needed, builds pairsum, verifies it, carries out the talk's study, makes tables, figures and a page.
+# Installs what is needed, builds pairsum, verifies it, carries out the talk's study, says what is fastest here.
 set -euo pipefail
 script=run_all.sh
 called_from=$PWD
@@ -12,16 +12,17 @@ usage() {
 usage: ./run_all.sh [--quick] [--no-install] [--results DIR] [--jobs N] [--limit SECONDS]
 
 Installs the missing Debian packages, builds the program, verifies it, carries out the studies talk (2 million
-particles) and m_sweep, and makes tables, figures and report.html of each. Takes at most 15 minutes after the
-installation.
+particles) and m_sweep, and says what is fastest on this machine. Takes at most 15 minutes after the build, which
+takes about 3.
 
-  --quick          the study quick, a small version of the same, in at most 2 minutes
+  --quick          the study quick, a small version of the same: at most 2 minutes after the build
   --no-install     do not look for missing packages
   --results DIR    where results go (default: results, beside this script); every run makes new files
   --jobs N         processes of the build (default: what cores and memory allow)
-  --limit SECONDS  time after the installation (default: 900; with --quick 120)
+  --limit SECONDS  time after the build (default: 900; with --quick 120)
 
-PYTHON names the Python that reports (default: /usr/bin/python3; needs pandas, scipy, matplotlib, jinja2).
+What every step prints goes to build/log/. PYTHON names the Python that reports (default: /usr/bin/python3; needs
+pandas, scipy, matplotlib, jinja2).
 Exit code: 0; 1 a verification failed; 2 bad input; 3 something needed is not installed; 4 nothing was
 measured; 130 interrupted; else that of the step that failed. docs/running.md says more.
 TEXT
@@ -63,19 +64,19 @@ else
   memory_mb=2000 disk_mb=1000
   study="talk"
 fi
-program=build/study/bin/pairsum
+program=build/study/bin/pairsum logs=build/log
 
 shown() { realpath -m --relative-base="$called_from" -- "$1"; }
 
 # ---- what it will take
-if $quick; then size="small case"; else size="full size"; fi
-say "pairsum: the study of the talk, $size. It takes up to $limit s, $memory_mb MB of memory and $disk_mb MB of disk."
-if $install; then say "Packages, if all are missing, take about 2 minutes and 600 MB of disk more."; fi
+if $quick; then size="a small case"; else size="full size"; fi
+say "pairsum: what is fastest on this machine? The study $study, $size: up to $limit s after the build (about 3 minutes)."
 check_room "$memory_mb" "$disk_mb"
 
 # ---- install
+mkdir -p "$logs"
+packages_log=$logs/packages.txt
 if $install; then
-  heading "packages"
   ensure_packages build plots || exit
 else
   say "packages: not looked at (--no-install)"
@@ -84,23 +85,19 @@ choose_python pandas scipy matplotlib jinja2 || exit
 for tool in cmake git; do
   command -v "$tool" >/dev/null || stop "$exit_missing" "$tool is not installed (run without --no-install)"
 done
-deadline=$((SECONDS + limit - reserve)) # for measuring
 
 # ---- build
-heading "build"
-step "configuring the build" cmake --preset study
-step "the build" cmake --build --preset study --target pairsum --parallel "${jobs:-$(jobs_for 1000)}"
+began=$SECONDS
+logged "configuring the build" "$logs/configure.txt" cmake --preset study
+logged "the build" "$logs/build.txt" \
+  cmake --build --preset study --target pairsum --parallel "${jobs:-$(jobs_for 1000)}"
 [[ -x $program ]] || stop 4 "the build made no $program"
+say "build: $((SECONDS - began)) s"
+deadline=$((SECONDS + limit - reserve)) # for measuring
 
 # ---- verify
-heading "verify: every algorithm against the reference, on a small case"
-verified=build/study/verify.txt status=0
-in_background "$program" verify --case dam_break --dx 0.05 --state perturbed --each >"$verified" || status=$?
-if ((status != 0)); then
-  cat "$verified"
-  stop "$status" "the verification failed (exit $status)"
-fi
-tail -n 1 "$verified"
+logged "the verification" "$logs/verify.txt" "$program" verify --case dam_break --dx 0.05 --state perturbed --each
+say "verify: $(tail -n 1 "$logs/verify.txt")"
 
 # ---- measure
 commit=$(git rev-parse --short=12 HEAD 2>/dev/null || echo nogit)
@@ -130,29 +127,29 @@ measure() {
   out=$(rows_of "$study")
   files+=("$out")
   under_way=$study
-  say "rows go to $(shown "$out")"
-  # In a session of its own, so that Ctrl-C reaches this script alone, which ends the program once.
+  # In a session of its own, so that Ctrl-C reaches this script alone, which ends the program once. Its progress stays
+  # on the screen.
   in_background setsid timeout --foreground --kill-after=5 "$left" \
-    "$program" run "$study" --budget "$budget" --out "$out" || status=$?
+    "$program" run "$study" --budget "$budget" --out "$out" >"$logs/run_$study.txt" || status=$?
   if ((status == 124 || (status == 137 && SECONDS - began >= left))); then
     warn "the study $study was cut short by the time limit; its finished rounds are kept"
   elif ((status != 0)); then
-    stop "$status" "measuring the study $study failed (exit $status)"
+    tail -n 3 "$logs/run_$study.txt" >&2
+    stop "$status" "measuring the study $study failed (exit $status); all of its output: $logs/run_$study.txt"
   fi
   under_way=''
+  say "measure: $study, $((SECONDS - began)) s, rows in $(shown "$out")"
 }
 
-heading "measure: the study $study"
 left=$((deadline - SECONDS))
-((left >= least)) || left=$least # at least one round, however slow the build
+((left >= least)) || left=$least # at least one round, however slow the verification
 if $quick; then
   measure "$study" $((left - left / 20)) "$left"
 else
   measure "$study" $((left * 3 / 4)) "$left"
-  heading "measure: the study m_sweep"
   left=$((deadline - SECONDS)) least=75 # every point verified, one round
   if ((left < least)); then
-    say "left out: $((left > 0 ? left : 0)) s are left of the limit, $least s are wanted (a larger --limit helps)"
+    say "measure: m_sweep is left out: $((left > 0 ? left : 0)) s are left, $least s are wanted (a larger --limit helps)"
   else
     measure m_sweep $((left - left / 20)) "$left"
   fi
@@ -161,28 +158,16 @@ fi
 # ---- tables, figures and page: one folder per study, named like its rows
 mapfile -t found < <(written)
 ((${#found[@]} > 0)) || stop 4 "nothing was measured within $limit s (a larger --limit helps)"
-heading "tables, figures and report.html"
 export PYTHON
+began=$SECONDS
 for file in "${found[@]}"; do
-  step "the report" "$program" report "$file"
+  logged "the report" "$logs/report_$(basename "$(dirname "$file")").txt" "$program" report "$file"
 done
+say "report: $((SECONDS - began)) s; what every step printed: $(shown "$logs")/"
 
-heading "done"
-for file in "${found[@]}"; do
-  folder=$(shown "${file%.jsonl}")
-  say "rows:    $(shown "$file")"
-  say "tables:  $folder/tables.txt, tables.md, csv/"
-  say "summary: $folder/summary.json"
-  say "figures: $folder/*.svg, *.png"
-done
+# ---- the answer of the first study, then where the pages lie
 say
-for file in "${found[@]}"; do
-  folder=${file%.jsonl}
-  study=$(basename "$(dirname "$file")")
-  printf '%s: ' "$study"
-  # The answer stands in the summary; a study of too few points has none.
-  step "reading the answer" "$PYTHON" -c 'import json, sys
-answer = json.load(open(sys.argv[1])).get("answer")
-print(answer["text"] if answer else "nothing can be recommended from these rows")' "$folder/summary.json"
-  say "look at it: $(shown "$folder/report.html")"
-done
+grep -v '^\(tables\|figures\|page\): ' "$logs/report_$(basename "$(dirname "${found[0]}")").txt" |
+  sed "s|  pairsum run|  $(shown "$program") run|"
+say
+for file in "${found[@]}"; do say "look at it: $(shown "${file%.jsonl}/report.html")"; done

@@ -1,5 +1,6 @@
 # shellcheck shell=bash
-# The system packages of pairsum (Debian 12 names) and how they get installed. To be sourced.
+# The system packages of pairsum (Debian 12 names) and how they get installed. To be sourced; packages_log: where apt-get's
+# words go.
 # shellcheck disable=SC2034  # the lists are used by name, see packages_of
 
 build_packages=(g++ cmake make ninja-build pkg-config git libbenchmark-dev libtbb-dev libeigen3-dev
@@ -63,7 +64,7 @@ ensure_packages() {
     as_root=(sudo -n)
   fi
   echo "packages: installing ${missing[*]}"
-  if ! apt_get "${as_root[@]}" -- "${missing[@]}"; then
+  if ! apt_get "${as_root[@]}" -- "${missing[@]}" >>"${packages_log:-/dev/stdout}"; then
     {
       echo "apt-get could not install the missing packages. Try, as root, after apt-get update:"
       echo "  $(install_line "${missing[@]}")"

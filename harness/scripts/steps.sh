@@ -3,7 +3,8 @@
 # To be sourced by a script that has set `script` to its name.
 # shellcheck disable=SC2154
 
-child= # process of the step that is running
+child=   # process of the step that is running
+watcher= # process that shows how far it is
 elapsed_from=$SECONDS
 
 say() { printf '%s\n' "$*"; }
@@ -40,9 +41,51 @@ step() {
   ((status == 0)) || stop "$status" "$name failed (exit $status)"
 }
 
+# logged NAME LOG COMMAND...: the same with its output in a file; on a terminal a line shows how far it is.
+logged() {
+  local name=$1 log=$2 status=0
+  shift 2
+  mkdir -p "$(dirname "$log")"
+  if [[ -t 2 ]]; then
+    watch_log "$name" "$log" &
+    watcher=$!
+  fi
+  in_background "$@" >"$log" 2>&1 || status=$?
+  end_watcher
+  ((status == 0)) || {
+    tail -n 15 "$log" >&2
+    stop "$status" "$name failed (exit $status); all of its output: $log"
+  }
+}
+
+# watch_log NAME LOG: every second, in one line, the seconds that went by and, where the log counts steps as [3/62], how
+# many are done and how long the others may take.
+watch_log() {
+  local began=$SECONDS text width passed
+  while sleep 1; do
+    passed=$((SECONDS - began))
+    text="$1: $passed s"
+    if [[ $(tail -c 400 "$2" 2>/dev/null) =~ .*\[([0-9]+)/([0-9]+)\] ]] && ((BASH_REMATCH[1] > 0)); then
+      text+=", step ${BASH_REMATCH[1]} of ${BASH_REMATCH[2]}"
+      text+=", about $((passed * (BASH_REMATCH[2] - BASH_REMATCH[1]) / BASH_REMATCH[1])) s left"
+    fi
+    width=$(stty size <&2 2>/dev/null | cut -d' ' -f2)
+    printf '\r\033[K%.*s' $((${width:-80} - 1)) "$text" >&2
+  done
+}
+
+end_watcher() {
+  [[ -n $watcher ]] || return 0
+  kill "$watcher" 2>/dev/null || true
+  wait "$watcher" 2>/dev/null || true
+  watcher=
+  printf '\r\033[K' >&2
+}
+
 # on_signal STATUS: ends the running step, then the script. A second signal ends the script at once.
 on_signal() {
   trap - INT TERM HUP
+  end_watcher
   if [[ -n $child ]]; then
     kill -TERM "$child" 2>/dev/null || true
     wait "$child" 2>/dev/null || true

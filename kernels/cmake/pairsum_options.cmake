@@ -20,7 +20,7 @@ add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
 
 # For code that is never timed: it compiles in half the time.
 add_library(pairsum_cold INTERFACE)
-target_compile_options(pairsum_cold INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-O1> $<$<CONFIG:Dev,Asan>:-O0>)
+target_compile_options(pairsum_cold INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-Og> $<$<CONFIG:Dev,Asan>:-O0>)
 
 # The same for tests that sum with templates of their own: under the sanitizers, without any optimisation they take minutes.
 add_library(pairsum_cool INTERFACE)

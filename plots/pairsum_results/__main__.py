@@ -36,7 +36,7 @@ def _report_program(programs) -> None:
     program.add_argument("inputs", nargs="+", metavar="FILE", help="rows files, or folders of them")
     program.add_argument("--out", metavar="DIR", type=pathlib.Path,
                          help="folder for the files (default: named like the rows file, beside it)")
-    program.add_argument("--tables", action="store_true", help="tables, CSV and summary.json alone: no figures, no page")
+    program.add_argument("--tables", action="store_true", help="print the tables; write them, CSV and summary.json alone: no figures, no page")
     program.add_argument("--beside", metavar="FILE", nargs="+", default=[],
                          help="rows files of other machines, each beside the first on the page")
     program.add_argument("--paper", action="store_true",
@@ -47,14 +47,19 @@ def _report_program(programs) -> None:
 
 
 def _report(options: argparse.Namespace) -> None:
-    from . import load, report, summary  # pandas and scipy take a moment, which --help need not wait for
+    # pandas and scipy take a moment, which --help need not wait for.
+    from . import load, report, summary
+    from .answers import said_of
 
     first = pathlib.Path(options.inputs[0])
     folder = options.out or (first if first.is_dir() else first.with_suffix(""))
     said = report(load(options.inputs, options.allow_mixed))
     others = [report(load([path], options.allow_mixed)) for path in options.beside]
-    print(summary.write(said, folder), end="", flush=True)
-    print(f"summary: {folder / 'summary.json'}")
+    tables = summary.write(said, folder)
+    print("\n".join(said_of(said.answer)), flush=True)
+    if options.tables:
+        print(f"\n{tables}", end="")
+    print(f"tables:  {folder}/tables.txt, tables.md, csv/, rounds.csv, summary.json")
     if options.tables:
         return
     from . import figures, page, paper

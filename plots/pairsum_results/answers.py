@@ -15,13 +15,24 @@ _READABLE = 8  # values that are all said
 
 @dataclasses.dataclass
 class Answer:
-    """For the largest problem that was measured, the point whose whole step takes least."""
+    """The fastest whole step of the largest problem that was measured, against all that was measured in the same
+    rounds. `over_gather` and `over_symmetric` say how many times as fast as the fastest of naive* and symmetric* it is,
+    on as many threads if there is one: `point`, `name`, `ratio`, `low`, `high`, `rounds`, `verdict`."""
     text: str
     details: str
     point: int
-    base: int  #: the fastest naive backend on as many threads; the point itself if there is none
     ties: list[int]  #: points that cannot be told from it (Holm, 95 %)
-    ratio: dict[str, float]  #: base over point: ratio, low, high, rounds
+    decided: bool
+    reason: str  #: why nothing is decided; "" if something is
+    command: str  #: the winner as a command line, or what to run to come to a decision
+    n_particles: int
+    over_gather: dict[str, Any] | None
+    over_symmetric: dict[str, Any] | None
+
+
+#: The gather and the talk's symmetric sum, scalar, on any runtime.
+_BASES = {"symmetric": ["symmetric", "symmetric_omp", "symmetric_tbb"], "gather": ["naive", "naive_omp", "naive_tbb"]}
+_NEEDED = 6  # rounds, for an interval of the median
 
 
 def answer(results: Results) -> Answer | None:
@@ -33,50 +44,108 @@ def answer(results: Results) -> Answer | None:
         return None
     sizes = of_first.groupby("series").agg(n_fluid=("n_fluid", "first"), points=("n_fluid", "size"))
     series = sizes.sort_values(["n_fluid", "points"], ascending=False, kind="stable").index[0]
+    best = int(of_first["time"][of_first["series"] == series].idxmin())
     # What was measured at another time, when the machine may have been another one, is not compared.
     rounds = results.rounds[results.rounds["point"].isin(of_first.index[of_first["series"] == series])]
-    most = rounds.groupby(["file", "round"]).size().idxmax()
-    together = rounds.set_index(["file", "round"]).loc[[most], "point"]
-    candidates = points.loc[together]
-    best = int(candidates["time"].idxmin())
-    naive = candidates[candidates["backend"].str.startswith("naive")]
-    as_many = naive[naive["threads"] == points["threads"][best]]
-    naive = as_many if len(as_many) else naive
-    base = int(naive["time"].idxmin()) if len(naive) else best
+    own = rounds.loc[rounds["point"] == best, ["file", "round"]]
+    candidates = points.loc[sorted(set(rounds.merge(own)["point"]))]
     others = candidates.index.drop(best)
-    against = compared(results, others, [best] * len(others), "total_s")
-    ties = [int(k) for k in against.loc[against["verdict"] == "not resolved", "base"]]
-    ratio = compared(results, [base], [best], "total_s").iloc[0]
-    said = _choices(candidates)
-    p, where = points.loc[best], results.environments.drop_duplicates("build").set_index("build").loc[0]
-    text = f"On {where['host']} take {said[best]}"
-    if base != best:
-        bounds = words.bounded(ratio["ratio"], ratio["low"], ratio["high"])
-        value, _, interval = bounds.partition(" ")
-        text += f": {value} times {interval or '(no interval: too few rounds)'} as fast as {said[base]}"
-    details = (f"On {where['host']} ({where['cpu']}, {where['cores']} cores) a whole step of {p['n_fluid']} fluid "
-               f"particles (dx {p['dx']:.10g}, {p['state']}, {p['precision']}, {p['interaction']}) takes "
-               f"{words.ms(p['time'])} ms")
-    if naive.empty:
-        details += "; no naive backend was measured beside it."
-    elif base == best:
-        details += ". It is the fastest naive backend itself."
+    against = compared(results, others, [best] * len(others), "total_s").set_index("base")
+    ties = [int(k) for k in against.index[against["verdict"] == "not resolved"]]
+    said, p = _choices(candidates, best), points.loc[best]
+    over = {kind: _over(kind, candidates.drop(best), against, said, p["backend"], p["threads"]) for kind in _BASES}
+    reason = _undecided(len(own), len(others), len(ties), said[best])
+    where = results.environments.drop_duplicates("build").set_index("build").loc[0]
+    n_particles = int(p["n_fluid"] + p["n_boundary"])
+    bases = [one for one in over.values() if one]
+    if reason:
+        text = f"On {where['host']} nothing is decided, because {reason}"
+        backends = dict.fromkeys([p["backend"], *points["backend"].reindex(ties), *(points["backend"][one["point"]]
+                                                                                    for one in bases)])
+        command = _command(p, backend=",".join(backends) if len(others) else "all", rounds=2 * max(_NEEDED, len(own)))
     else:
-        details += f", with {said[base]} {words.ms(points['time'][base])} ms."
+        text = f"On {where['host']} {said[best]} is the fastest of {len(candidates)} measured"
+        text += ": " + " and ".join(f"{words.bounded(one['ratio'], one['low'], one['high'])} times as fast as "
+                                    f"{one['name']}" for one in bases) if bases else ""
+        text += f", on {n_particles:,} particles"
+        command = _command(p, backend=p["backend"])
+    details = (f"{where['cpu']}, {where['cores']} cores: a whole step of {p['case']} ({p['n_fluid']:,} fluid and "
+               f"{p['n_boundary']:,} boundary particles, dx {p['dx']:.10g}, {p['state']}, {p['precision']}, "
+               f"{p['interaction']}) takes {words.ms(p['time'])} ms with {said[best]}.")
     if ties:
         details += f" No difference was resolved from {first_few([said[k] for k in ties])}."
-    return Answer(text + ".", details, best, base, ties, ratio[["ratio", "low", "high", "rounds"]].to_dict())
+    return Answer(text + ".", details, best, ties, not reason, reason, command, n_particles, over["gather"],
+                  over["symmetric"])
 
 
-def _choices(points: pd.DataFrame) -> pd.Series:
-    """ "symmetric_omp with M = 7 and 2 threads", "tiles_omp on compact_grid and 2 threads" """
-    def words_of(name: str, p) -> str:
-        grid = f" on {p.grid}" if p.grid != "hashed_grid" or np.isnan(p.M) else ""
-        cells = "" if np.isnan(p.M) else f" with M = {p.M:.0f}"
-        return f"{name}{grid}{cells} and {words.threads_words(p.threads)}"
+def said_of(found: Answer | None) -> list[str]:
+    """The answer in lines for a terminal, with the command that follows from it."""
+    if found is None:
+        return ["Nothing can be recommended from these rows: they hold no backend but those of the self-test."]
+    return [found.text, found.details, f"{'Run it' if found.decided else 'Run this'}:  {found.command}"]
 
-    named = zip(words.names(points, False), points.itertuples())
-    return pd.Series([words_of(name, p) for name, p in named], points.index)
+
+def _over(kind: str, candidates: pd.DataFrame, against: pd.DataFrame, said: pd.Series,
+          winner: str, threads: int) -> dict[str, Any] | None:
+    """The ratio of the fastest of this kind over the winner; None if the winner is of the kind itself, or none is."""
+    if winner in _BASES[kind]:
+        return None
+    found = candidates[candidates["backend"].isin(_BASES[kind]) & (candidates["isa"] == "scalar")]
+    as_many = found[found["threads"] == threads]
+    found = as_many if len(as_many) else found
+    if found.empty:
+        return None
+    point = int(found["time"].idxmin())
+    return {"point": point, "name": said[point],
+            **against.loc[point, ["ratio", "low", "high", "rounds", "verdict"]].to_dict()}
+
+
+def _undecided(rounds: int, others: int, ties: int, winner: str) -> str:
+    if others == 0:
+        return f"only {winner} was measured"
+    if rounds < _NEEDED:
+        return f"{rounds} round{'' if rounds == 1 else 's'} of {winner} give no interval ({_NEEDED} are needed)"
+    rest = f"the {others} others" if others > 1 else "the other"
+    return f"no difference was resolved between {winner} and {rest}" if ties == others else ""
+
+
+def _command(p: Any, **more: Any) -> str:
+    """`pairsum run` of a point's problem and place; what is the program's default is left out."""
+    given = {name: p[name] for name in ("case", "dx", "state", "grid", "threads", "M")}
+    given |= {name: p[name] for name, usual in _USUAL.items() if p[name] != usual}
+    if abs(p["H"] - 2 * p["dx"]) > 1e-9 * p["dx"]:
+        given["H"] = p["H"]
+    one = "," not in more["backend"] and more["backend"] != "all"
+    if one and p["isa"] != "scalar":
+        given["isa"] = p["isa"]
+    if one and p["block"] not in ("none", "auto"):
+        given["block"] = p["block"]
+    given = {name: value for name, value in given.items() if pd.notna(value)} | more
+    return "pairsum run" + "".join(f" --{name} {value:.10g}" if isinstance(value, float) else f" --{name} {value}"
+                                   for name, value in given.items())
+
+
+#: What `pairsum run` takes where no option says otherwise.
+_USUAL = {"dim": 3, "precision": "double", "interaction": "ferrari09", "smoothing": "wendland_c2",
+          "integrator": "euler", "order": "lattice"}
+
+
+def _choices(points: pd.DataFrame, best: int) -> pd.Series:
+    """ "symmetric_omp (M = 7, 2 threads)"; of the others only what is not as of the best: "naive_omp (M = 6)" """
+    several = {name: points.groupby("backend")[name].transform("nunique") > 1 for name in ("isa", "block", "granularity")}
+
+    def of(p: Any) -> list[str]:
+        found = [p[name] for name in several if several[name][p.name]]
+        found += [p["grid"]] if p["grid"] != "hashed_grid" or np.isnan(p["M"]) else []
+        found += [f"M = {p['M']:.0f}"] if pd.notna(p["M"]) else []
+        return [*found, words.threads_words(p["threads"])]
+
+    def said(p: Any) -> str:
+        found = [word for word in of(p) if p.name == best or word not in own]
+        return p["backend"] + (f" ({', '.join(found)})" if found else "")
+
+    own = of(points.loc[best])
+    return points.apply(said, axis=1)
 
 
 def questions(results: Results, series: int, tables: dict[str, pd.DataFrame]) -> list[dict[str, str]]:

@@ -36,7 +36,7 @@ def summary(report: Report) -> dict[str, Any]:
     """What people and programs ask for: the answer, points, ratios, caveats (summary.schema.json). `point` and `base`
     are places in "points", `series` in "series". Times in seconds, medians over rounds; ratios at 95 %."""
     r = report.results
-    answer = report.answer and {**dataclasses.asdict(report.answer), **report.answer.ratio,
+    answer = report.answer and {**dataclasses.asdict(report.answer),
                                 **report.points.loc[report.answer.point, [*PLACE, "total_s"]].to_dict()}
     content = {"schema": SCHEMA, "title": report.title, "sources": r.sources, "answer": answer,
                "questions": report.questions, "caveats": report.caveats,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import pairsum_results as pr
-from pairsum_results import summary
+from pairsum_results import answers, summary
 
 
 @pytest.fixture
@@ -135,12 +135,31 @@ def test_the_answer_is_the_fastest_step_of_the_largest_problem(report):
                 (made.point("symmetric_omp", 6, 2, n_fluid=10), 1e-6)])
     best = r.points.loc[r.answer.point]
     assert (best["backend"], best["M"], best["threads"], best["n_fluid"]) == ("symmetric_omp", 6, 2, 1000000)
-    assert r.points.loc[r.answer.base, ["backend", "threads"]].to_list() == ["naive_omp", 2]
-    assert [r.points["M"][k] for k in r.answer.ties] == [7] and r.answer.ratio["ratio"] == pytest.approx(2)
-    assert r.answer.text == ("On node take symmetric_omp with M = 6 and 2 threads: 2.00 times [2.00, 2.00] as fast as "
-                             "naive_omp with M = 6 and 2 threads.")
-    assert "takes 525.00 ms" in r.answer.details and "No difference was resolved from symmetric_omp with M = 7" in \
+    assert [r.points["M"][k] for k in r.answer.ties] == [7] and r.answer.over_symmetric is None and r.answer.decided
+    gather = r.answer.over_gather
+    assert r.points.loc[gather["point"], ["backend", "threads"]].to_list() == ["naive_omp", 2]
+    assert gather["ratio"] == pytest.approx(2) and gather["verdict"] == "faster"
+    assert r.answer.text == ("On node symmetric_omp (M = 6, 2 threads) is the fastest of 5 measured: 2.00 [2.00, 2.00] times "
+                             "as fast as naive_omp, on 2,014,966 particles.")
+    assert "takes 525.00 ms" in r.answer.details and "No difference was resolved from symmetric_omp (M = 7)" in \
         r.answer.details
+    assert r.answer.command == ("pairsum run --case dam_break --dx 0.00594 --state rest --grid hashed_grid --threads 2 --M 6 "
+                                "--backend symmetric_omp")
+
+
+@pytest.mark.parametrize("points, how, reason, command", [
+    ([(made.point("naive_omp", 6, 2), 1.0), (made.point("tiles_omp", None, 2, grid="compact_grid", isa="avx2"), .5)],
+     {"rounds": 3}, "3 rounds of tiles_omp (compact_grid, 2 threads) give no interval (6 are needed)",
+     "--backend tiles_omp,naive_omp --rounds 12"),
+    ([(made.point("naive_omp"), 1.0, made.scattered(.05, -.05, .03, -.03, .04, -.04)), (made.point("symmetric_omp"), .999)],
+     {}, "no difference was resolved between symmetric_omp (M = 6, 1 thread) and the other",
+     "--backend symmetric_omp,naive_omp --rounds 12"),
+    ([(made.point("naive_omp"), 1.0)], {}, "only naive_omp (M = 6, 1 thread) was measured", "--backend all --rounds 12")])
+def test_what_does_not_decide_is_no_answer(report, points, how, reason, command):
+    r = report(points, **how)
+    assert not r.answer.decided and r.answer.reason == reason and r.answer.command.endswith(command)
+    assert r.answer.text == f"On node nothing is decided, because {reason}."
+    assert answers.said_of(r.answer)[-1] == f"Run this:  {r.answer.command}"
 
 
 def test_the_questions_are_answered_as_far_as_they_were_measured(report):

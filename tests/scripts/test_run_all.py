@@ -45,12 +45,11 @@ def test_the_full_run(sandbox):
     assert re.fullmatch(r"\S+-\d{8}T\d{6}Z-(nogit|[0-9a-f]+)(-dirty)?", stem)
     folders = [f"results/{study}/{stem}" for study in ("talk", "m_sweep")]  # one report per rows file
     assert calls[5:] == [f"pairsum report {folder}.jsonl" for folder in folders]
-    for text in ("a table", f"results/talk/{stem}/tables.txt", f"results/talk/{stem}/summary.json",
-                 f"results/talk/{stem}/*.svg", f"results/m_sweep/{stem}.jsonl"):
-        assert text in done.stdout
-    assert done.stdout.splitlines()[-4:] == [
-        "talk: the answer", f"look at it: results/talk/{stem}/report.html",
-        "m_sweep: the answer", f"look at it: results/m_sweep/{stem}/report.html"]
+    assert done.stdout.splitlines()[-5:] == [
+        f"the answer of results/talk/{stem}.jsonl", "Run it:  build/study/bin/pairsum run --backend tiles_omp", "",
+        *(f"look at it: results/{study}/{stem}/report.html" for study in ("talk", "m_sweep"))]
+    assert len(done.stdout.splitlines()) <= 40 and "verify: all passed" in done.stdout
+    assert (sandbox.tree / "build/log/verify.txt").read_text() == "a sum\nall passed\n"
     assert "\033" not in done.stdout + done.stderr
 
 
@@ -89,7 +88,7 @@ def test_works_from_anywhere_and_with_another_results_folder(sandbox, tmp_path):
     assert done.returncode == 0, done.stderr
     assert len(list((tmp_path / "my results/quick").glob("*.jsonl"))) == 1
     assert not (sandbox.tree / "results").exists()
-    assert re.search(r"^tables:  my results/quick/\S+/tables.txt, tables.md, csv/$", done.stdout, re.MULTILINE)
+    assert re.search(r"^look at it: my results/quick/\S+/report.html$", done.stdout, re.MULTILINE)
 
 
 def test_a_second_run_keeps_the_files_of_the_first(sandbox):
@@ -103,7 +102,8 @@ def test_a_second_run_keeps_the_files_of_the_first(sandbox):
 def test_a_failed_verification_stops_before_measuring(sandbox):
     done = sandbox.run("./run_all.sh", "--no-install", STUB_FAILS="verify", STUB_STATUS="1")
     assert done.returncode == 1
-    assert done.stderr.splitlines()[-1] == "run_all.sh: the verification failed (exit 1)"
+    assert done.stderr.splitlines() == [
+        "a sum", "all passed", "run_all.sh: the verification failed (exit 1); all of its output: build/log/verify.txt"]
     assert sandbox.calls("pairsum run") == []
 
 
@@ -166,3 +166,10 @@ def test_an_interrupt_ends_at_once_and_says_what_is_kept(sandbox, sent, status):
         f"run_all.sh: interrupted; finished rounds are kept in {out}; "
         f"to go on: build/study/bin/pairsum run quick --out {out}")
     assert sandbox.calls("pairsum report") == []
+
+
+def test_the_limit_counts_from_the_end_of_the_build(sandbox):
+    sandbox.stub("cmake", '#!/bin/bash\nif [[ $1 == --build ]]; then sleep 4; mkdir -p build/study/bin; '
+                          'cp "$STUBS/pairsum" build/study/bin/; fi\n')
+    assert sandbox.run("./run_all.sh", "--quick", "--no-install").returncode == 0
+    assert budgets(sandbox)[0] >= (120 - 30) * 19 // 20 - 1
