@@ -96,7 +96,8 @@ say "build: $((SECONDS - began)) s"
 deadline=$((SECONDS + limit - reserve)) # for measuring
 
 # ---- verify
-logged "the verification" "$logs/verify.txt" "$program" verify --case dam_break --dx 0.05 --state perturbed --each
+logged "the verification" "$logs/verify.txt" \
+  "$program" verify --case dam_break --dx 0.05 --state perturbed --M 3,6 --threads 1,3 --each
 say "verify: $(tail -n 1 "$logs/verify.txt")"
 
 # ---- measure

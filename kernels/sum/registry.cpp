@@ -52,7 +52,7 @@ void registry::add(formula_entry f) {
   const combination own = combination_of(f.words);
   if (std::ranges::any_of(formulas_, [&](const formula_entry& other) { return combination_of(other.words) == own; }))
     throw error("there is a formula " + text_of(f.words) + " already");
-  formulas_.push_back(std::move(f));
+  formulas_.push_back(f);
 }
 void registry::add_missing(missing_word m) { missing_.push_back(std::move(m)); }
 void registry::add_wrapper(const backend_traits& t, const std::string& base, summation_wrapper wrap) {
@@ -87,8 +87,14 @@ template <class Words>
 void registry::check_built(const std::string& kind, const std::string& word, const Words& built) const {
   for (const missing_word& m : missing_)
     if (m.kind == kind && m.word == word)
-      throw error(kind + " " + word + " is not in this build; configure with -D" + m.option +
-                  "=all (built: " + join(built) + ")");
+      throw error(std::string(kind)
+                      .append(" ")
+                      .append(word)
+                      .append(" is not in this build; configure with -D")
+                      .append(m.option)
+                      .append("=all (built: ")
+                      .append(join(built))
+                      .append(")"));
   check_word(kind, word, built);
 }
 

@@ -131,20 +131,21 @@ _USUAL = {"dim": 3, "precision": "double", "interaction": "ferrari09", "smoothin
 
 
 def _choices(points: pd.DataFrame, best: int) -> pd.Series:
-    """ "symmetric_omp (M = 7, 2 threads)"; of the others only what is not as of the best: "naive_omp (M = 6)" """
-    several = {name: points.groupby("backend")[name].transform("nunique") > 1 for name in ("isa", "block", "granularity")}
+    """ "symmetric_omp (avx2, M = 7, 2 threads)": variants of a backend that has several, then grid, M and threads where
+    they are not as of the best."""
+    variants = ["isa", "block", "granularity"]
+    several = points.groupby("backend")[variants].transform("nunique") > 1
 
-    def of(p: Any) -> list[str]:
-        found = [p[name] for name in several if several[name][p.name]]
-        found += [p["grid"]] if p["grid"] != "hashed_grid" or np.isnan(p["M"]) else []
-        found += [f"M = {p['M']:.0f}"] if pd.notna(p["M"]) else []
-        return [*found, words.threads_words(p["threads"])]
+    def place(p: Any) -> list[str]:
+        return ([p["grid"]] if p["grid"] != "hashed_grid" or np.isnan(p["M"]) else []) + (
+            [f"M = {p['M']:.0f}"] if pd.notna(p["M"]) else []) + [words.threads_words(p["threads"])]
 
     def said(p: Any) -> str:
-        found = [word for word in of(p) if p.name == best or word not in own]
+        found = [p[name] for name in variants if several[name][p.name]]
+        found += [word for word in place(p) if p.name == best or word not in own]
         return p["backend"] + (f" ({', '.join(found)})" if found else "")
 
-    own = of(points.loc[best])
+    own = place(points.loc[best])
     return points.apply(said, axis=1)
 
 

@@ -3,7 +3,8 @@
 What differs, and why: rows of schema 2 do not state the backends' traits, nor the flops and bytes of the model. So
 "Does it scale as well?" (gathers against symmetric sums) and "How far is that from what the machine can do?" are not
 answered from them. The answer is now set against the gather and the symmetric sum instead of the fastest naive backend;
-what is the fastest and what cannot be told from it is as it was.
+what is the fastest and what cannot be told from it is as it was, but in `vector`, where it is now the fastest of all parts
+instead of that of the largest part.
 """
 import json
 import math
