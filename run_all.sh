@@ -60,7 +60,7 @@ if $quick; then
   memory_mb=1000 disk_mb=1000
   study="quick"
 else
-  limit=${limit:-900} reserve=75 least=240
+  limit=${limit:-900} reserve=50 least=240
   memory_mb=2000 disk_mb=1000
   study="talk"
 fi
@@ -147,7 +147,7 @@ left=$((deadline - SECONDS))
 if $quick; then
   measure "$study" $((left - left / 20)) "$left"
 else
-  measure "$study" $((left * 3 / 4)) "$left"
+  measure "$study" $((left * 4 / 5)) "$left"
   left=$((deadline - SECONDS)) least=75 # every point verified, one round
   if ((left < least)); then
     say "measure: m_sweep is left out: $((left > 0 ? left : 0)) s are left, $least s are wanted (a larger --limit helps)"
