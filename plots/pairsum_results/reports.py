@@ -5,9 +5,10 @@ import numpy as np
 import pandas as pd
 
 from . import compare, ladders
-from .answers import Answer, answer, questions
+from .answers import Answer, answer
 from .load import Results, place_words
 from .model import models, shares
+from .questions import questions
 from .self_tests import self_test
 
 

@@ -143,7 +143,7 @@ def heading(results: Results, series: int) -> tuple[str, str]:
 def _answers(report: Report) -> Iterator[str]:
     if report.answer:
         yield wrapped(f"{report.answer.text} {report.answer.details}")
-    yield from (wrapped(f"{q['question']} {q['answer']}") for q in report.questions)
+    yield from (wrapped(f"{q['question']} {q['verdict']}: {q['number']}. {q['answer']}") for q in report.questions)
 
 
 def _rest(report: Report) -> Iterator[str]:

@@ -162,20 +162,6 @@ def test_what_does_not_decide_is_no_answer(report, points, how, reason, command)
     assert answers.said_of(r.answer)[-1] == f"Run this:  {r.answer.command}"
 
 
-def test_the_questions_are_answered_as_far_as_they_were_measured(report):
-    r = report(made.talk(), before=[made.environment(), made.peak(2, 1e10, 1e9)])
-    asked = {q["question"]: q["answer"] for q in r.questions}
-    assert asked["Is the symmetric sum twice as fast here?"].startswith("Yes, on 2 threads: OpenMP naive M = 6 over symmetric")
-    assert asked["Does it scale as well?"].startswith("On 2 threads gathers are 2.00 times as fast as on one, symmetric sums")
-    assert "symmetric M = 6 (1050.0 ms a step; M = 7 takes 1.20 times as long)" in asked["Which M for which algorithm, and why?"]
-    assert asked["OpenMP or oneTBB?"].startswith("Of 4 comparisons oneTBB is faster in 0, OpenMP in 4")
-    # 1e9 flops at 1e10 per s, 1e8 bytes at 1e9 per s: 100 ms, of symmetric_omp's 262.5 ms.
-    assert "symmetric_omp with M = 6 and 2 threads: its arithmetic could not be done in less than 100.00 ms, and that is 38.1" \
-        in asked["How far is that from what the machine can do?"]
-    assert r.points["limited_by"].dropna().eq("flops").all() and r.points["share_of_bound"].notna().sum() == 4
-    assert not report([(made.point("naive"), 1.0)]).questions
-
-
 def test_what_is_known_of_self_test_backends_is_held_against_the_numbers(report):
     noise = made.scattered(.01, -.01, .02, -.02, .015, -.015)
     corrupt = {"error": "rate 7 is off", "phases": None, "work": None}
