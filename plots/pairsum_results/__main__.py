@@ -62,14 +62,12 @@ def _report(options: argparse.Namespace) -> None:
     print(f"tables:  {folder}/tables.txt, tables.md, csv/, rounds.csv, summary.json")
     if options.tables:
         return
-    from . import figures, page, paper
+    from . import page, paper
 
-    drawn = figures.draw_all(said, folder)
-    print(f"figures: {len(drawn)} files, {folder}/*.svg and *.png")
     if options.paper:
         paper.write(said, folder / "paper")
         print(f"paper:   {folder / 'paper'}")
-    page.write([said, *others], folder / "report.html")
+    print(f"figures: {len(page.write([said, *others], folder))} files, {folder}/*.png")
     print(f"page:    {folder / 'report.html'}")
 
 

@@ -9,7 +9,7 @@ import pandas as pd
 from .compare import first_few
 from .history import History
 from .summary import write_file
-from .words import bounded, ms, text_table, threads_words, wrapped
+from .words import bounded, hoisted, ms, text_table, threads_words, wrapped
 
 _WORDS = 5  #: columns of both tables that hold words, at their left
 _FEW = 10  #: lines of a table in the text; the page has all
@@ -20,21 +20,12 @@ _LEAST_SPAN = np.log(1.05)
 _APART = 11  #: pixels between words beside a panel
 
 
-def _hoisted(caption: str, header: list[str], rows: list[list[str]]) -> tuple[str, list[str], list[list[str]]]:
-    """The table without columns of words that are the same in all its lines, which stand in the caption instead."""
-    words = [k for k in range(1, _WORDS) if len({row[k] for row in rows}) == 1]
-    kept = [k for k in range(len(header)) if k not in words]
-    return ("; ".join([caption, *(f"{header[k]}: {rows[0][k]}" for k in words)]), [header[k] for k in kept],
-            [[row[k] for k in kept] for row in rows])
-
-
 def _few(caption: str, header: list[str], rows: list[list[str]]) -> str:
     """The first lines of a table."""
     if not rows:
         return ""
-    said, shown, cells = _hoisted(caption, header, rows[:_FEW])
-    table = text_table(shown, cells, _WORDS - len(header) + len(shown))
-    return f"\n{wrapped(said)}{table}" + (f"and {len(rows) - _FEW} more\n" if len(rows) > _FEW else "")
+    said, *table = hoisted(caption, header, rows[:_FEW], _WORDS)
+    return f"\n{wrapped(said)}{text_table(*table)}" + (f"and {len(rows) - _FEW} more\n" if len(rows) > _FEW else "")
 
 
 def text(h: History) -> str:
@@ -194,10 +185,10 @@ def page(h: History) -> str:
                                      trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     changed = h.steps[h.steps["verdict"] != "not resolved"].sort_values(["newest", "ratio"], ascending=[False, True])
     rows = [[*row, verdict] for row, verdict in zip(_cells(h, changed), changed["verdict"])]
-    tables = [_hoisted("Time before over time now: above 1 is faster, the machine's pace taken out; pace: how much "
-                       "more the machine itself did", [*_HEADER, "now"], rows),
-              _hoisted("Time on the first machine over time on the second; flops and bandwidth: peaks of the second "
-                       "over those of the first on as many threads", _MACHINE_HEADER, list(_machine_cells(h)))]
+    tables = [hoisted("Time before over time now: above 1 is faster, the machine's pace taken out; pace: how much "
+                       "more the machine itself did", [*_HEADER, "now"], rows, 0)[:3],
+              hoisted("Time on the first machine over time on the second; flops and bandwidth: peaks of the second "
+                       "over those of the first on as many threads", _MACHINE_HEADER, list(_machine_cells(h)), 0)[:3]]
     return environment.get_template("history.html.j2").render(
         answer=_sentence(h), notes=notes(h), sections=sections(h), changes=tables[0], machines=tables[1], left=LEFT,
         top=TOP, width=WIDTH, height=HEIGHT, phase=h.phase.removesuffix("_s"), revisions=h.revisions)

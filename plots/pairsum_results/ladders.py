@@ -11,6 +11,12 @@ from .self_tests import self_tests
 #: Backends of which the first that was measured is the base: the gather, which needs no strategy.
 BASES = ["naive_omp", "naive_tbb", "naive"]
 _FEWEST = 3  # backends on a ladder
+#: How backends keep threads apart whose rows are too old (schema 2) to say so, without _omp and _tbb.
+_FORMER = {"naive": "gather", "naive_tiles": "gather", "sphysics_sweep": "serial", "ppm_stencil": "serial",
+           "atomic_add": "atomics", "thread_private": "copies", "touched_blocks": "copies", "per_pass_buffers": "copies",
+           "sliced_locks": "locks", "task_conflicts": "tasks",
+           **dict.fromkeys(("symmetric", "tiles", "colour18", "colour4", "half_cells", "sliced_2colour", "pair_list",
+                            "verlet_list"), "colours")}
 
 
 def ladder(results: Results) -> pd.DataFrame:
@@ -59,6 +65,41 @@ def _rungs(results: Results) -> pd.DataFrame:
     rungs = rungs.merge(bases[[*keys, "point"]].rename(columns={"point": "base"}), on=keys, how="left")
     rungs = rungs[rungs["base"].notna() & (rungs["of"] >= _FEWEST)]
     return rungs[[*keys, "point", "base", "rank", "of"]].astype({"base": int})
+
+
+def standings(results: Results) -> pd.DataFrame:
+    """Every backend at its fastest on each number of threads, by whole steps, the fastest first: times over those of a
+    base, the gather or else the slowest (see compare). `rank` `of` so many in the series and on these threads; `behind`
+    with `_low` and `_high`: its time over that of the fastest; `tied`: no difference from that is resolved (Holm, over
+    these); `world`: the series in a few words. Nothing where one backend alone was timed."""
+    keys = ["series", "threads"]
+    points = results.points.assign(time=results.times("total_s")).dropna(subset=["time"]).reset_index()
+    rungs = points[~points["backend"].isin(self_tests(results).index)].sort_values([*keys, "time", "point"])
+    rungs = rungs.drop_duplicates([*keys, "backend"])
+    groups = rungs.groupby(keys)
+    rungs["rank"], rungs["of"] = groups.cumcount() + 1, groups["backend"].transform("size")
+    rungs["fastest"], slowest = groups["point"].transform("first"), groups["point"].transform("last")
+    gathers = rungs.assign(order=rungs["backend"].map({name: k for k, name in enumerate(BASES)})).dropna(subset=["order"])
+    gathers = gathers.sort_values("order").drop_duplicates(keys).set_index(keys)["point"]
+    rungs["base"] = gathers.reindex(pd.MultiIndex.from_frame(rungs[keys])).set_axis(rungs.index).fillna(slowest)
+    rungs = rungs[rungs["of"] > 1].reset_index(drop=True)
+    table = compared(results, rungs["base"], rungs["point"], "total_s").assign(
+        rank=rungs["rank"], of=rungs["of"], world=lambda t: t["series"].map(worlds(results)))
+    behind = compared(results, rungs["point"], rungs["fastest"], "total_s")
+    for end, column in (("", "ratio"), ("_low", "low"), ("_high", "high")):
+        table[f"behind{end}"] = behind[column]
+    verdicts = [stats.verdicts(behind.loc[own.index]) for _, own in table.groupby(keys)]
+    table["tied"] = (pd.concat(verdicts) if verdicts else behind["verdict"]).eq("not resolved")
+    return table
+
+
+def families(results: Results) -> pd.Series:
+    """How every backend keeps threads apart: "gather", "colours", "copies", "locks", "tasks", "atomics", "serial" or,
+    where nobody knows, "other"."""
+    said = results.backends["conflicts"]
+    names = pd.Series(said.index.str.replace("_(omp|tbb)$", "", regex=True), said.index)
+    said = said.fillna(names.map(_FORMER))
+    return said.where(said.isin(list(_FORMER.values())), "other")
 
 
 def _one_thread(results: Results) -> pd.Series:

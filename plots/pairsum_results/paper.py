@@ -4,7 +4,7 @@ import re
 
 import pandas as pd
 
-from .figures import ALL, PAPER, draw, on_all_cores, parts, rendered
+from .figures import PAPER, draw, on_all_cores, rendered, sheets
 from .load import COMMON
 from .page import every_table
 from .reports import Report
@@ -17,17 +17,11 @@ _HEAD = "% In the preamble: \\usepackage{booktabs}\n"
 
 
 def write(report: Report, folder: pathlib.Path) -> list[pathlib.Path]:
-    """Writes FIGURE.pdf (FIGURE-2.pdf for the second series), tables.tex and methods.tex, each whole or not at all;
+    """Writes FIGURE.pdf (FIGURE-2.pdf, ... where one has no room for all), tables.tex and methods.tex, each whole or not at all;
     returns the paths. Raises ResultsError."""
-    shown = parts(report)
-    tasks = [(f"{drawing.name}{f'-{k}' if k > 1 else ''}.pdf", drawing, part) for drawing in ALL
-             for k, (_, part) in enumerate(shown[drawing.each], 1)]
-
-    def pdf(task) -> bytes | None:
-        figure = draw(task[1], report, PAPER, [("", task[2])])
-        return figure and rendered(figure, "pdf", PAPER)
-
-    files = {name: content for (name, *_), content in zip(tasks, on_all_cores(pdf, tasks)) if content}
+    tasks = sheets(report, PAPER)
+    drawn = on_all_cores(lambda one: rendered(draw(one, report, PAPER), "pdf", PAPER), tasks)
+    files = {f"{one.name}.pdf": content for one, content in zip(tasks, drawn)}
     files |= {"tables.tex": latex_tables(report), "methods.tex": methods(report)}
     for name, content in files.items():
         write_file(folder / name, content)

@@ -15,7 +15,7 @@ from .self_tests import self_test
 @dataclasses.dataclass
 class Report:
     """`points` are those of the results with what models and shares say; the other tables are what the functions of
-    their names give, with `ladder`, `over_threads`, `shifts` and `strategies` of ladders.py."""
+    their names give, with `standings`, `ladder`, `over_threads`, `shifts` and `strategies` of ladders.py."""
     results: Results
     title: str
     points: pd.DataFrame
@@ -24,6 +24,7 @@ class Report:
     runtime_comparison: pd.DataFrame
     compiler_comparison: pd.DataFrame
     m_comparison: pd.DataFrame
+    standings: pd.DataFrame
     ladder: pd.DataFrame
     over_threads: pd.DataFrame
     shifts: pd.DataFrame
@@ -49,7 +50,8 @@ def report(results: Results) -> Report:
     tested, said = self_test(results), answer(results)
     asked = questions(results, points["series"][said.point], {**of_points, "points": points}) if said else []
     studies, hosts = results.series["study"].unique(), results.environments["host"].unique()
-    return Report(results, f"{', '.join(studies)} on {', '.join(hosts)}", points, **of_points, ladder=found,
+    return Report(results, f"{', '.join(studies)} on {', '.join(hosts)}", points, **of_points,
+                  standings=ladders.standings(results), ladder=found,
                   over_threads=ladders.over_threads(results, found), shifts=shifted,
                   strategies=ladders.strategies(results, found, shifted), self_test=tested, answer=said,
                   questions=asked, caveats=_caveats(results, of_points, tested))

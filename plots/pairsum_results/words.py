@@ -1,5 +1,5 @@
 """Numbers and points in words, for people."""
-from typing import Iterable
+from typing import Callable, Iterable
 
 import numpy as np
 import pandas as pd
@@ -15,6 +15,36 @@ def ms(seconds: float) -> str:
 
 def fixed(value: float, digits: int) -> str:
     return "-" if pd.isna(value) else f"{value:.{digits}f}"
+
+
+def short(value: float) -> str:
+    """Three digits, and never an exponent: "1.25", "12.5", "125", "12500"; "-" without a value."""
+    if pd.isna(value):
+        return "-"
+    return f"{value:.{max(0, 2 - int(np.floor(np.log10(abs(value)))))}f}" if value else "0"
+
+
+def count(value: float) -> str:
+    """A number of things: "216", "99.2 k", "237 M"; "-" without a value."""
+    if pd.isna(value):
+        return "-"
+    for least, unit in ((1e9, "G"), (1e6, "M"), (1e4, "k")):
+        if value >= least:
+            return f"{value / (1e3 if unit == 'k' else least):.3g} {unit}"
+    return f"{value:.0f}"
+
+
+def time(seconds: float) -> str:
+    """ "4.21 ms", "1.25 s", "315 \u00b5s" """
+    if pd.isna(seconds):
+        return "-"
+    size, unit = next(((size, unit) for size, unit in ((1, "s"), (1e-3, "ms")) if seconds >= size), (1e-6, "\u00b5s"))
+    return f"{short(seconds / size)} {unit}"
+
+
+def between(low: float, high: float, say: Callable[[float], str]) -> str:
+    """ "95 % interval 1.31 to 1.40", or that there is none."""
+    return "no interval: too few rounds" if pd.isna(low) else f"95 % interval {say(low)} to {say(high)}"
 
 
 def percent(value: float) -> str:
@@ -46,6 +76,17 @@ def names(points: pd.DataFrame, with_grid: bool = True) -> pd.Series:
         several = points.groupby("backend")[name].transform("nunique") > 1
         text = text.where(~several, text + " " + points[name])
     return text
+
+
+def hoisted(caption: str, header: list[str], rows: list[list[str]], left: int
+            ) -> tuple[str, list[str], list[list[str]], int]:
+    """The table without columns, but the first, that are the same in all its lines: what these say stands in the
+    caption. `left`: the columns aligned to the left."""
+    same = [k for k in range(1, len(header)) if len(rows) > 1 and len({row[k] for row in rows}) == 1]
+    kept = [k for k in range(len(header)) if k not in same]
+    said = [f"{header[k]}: {rows[0][k]}" for k in same if rows[0][k] not in ("", "-")]
+    return ("; ".join([caption, *said]), [header[k] for k in kept], [[row[k] for k in kept] for row in rows],
+            left - sum(k < left for k in same))
 
 
 def wrapped(text: str, width: int = 120) -> str:

@@ -27,7 +27,7 @@ def test_details_are_what_was_measured(asked):
     assert "symmetric M = 6 (1050.0 ms a step; M = 7 takes 1.20 times as long)" in said[M]
     assert said[RUNTIME].startswith("Of 4 comparisons oneTBB is faster in 0, OpenMP in 4")
     # 1e9 flops at 1e10 per s on 1 thread, 1e8 bytes at 1e9 per s: 100 ms, of symmetric's 525 ms.
-    assert "symmetric_omp with M = 6 and 1 thread: its arithmetic could not be done in less than 100.00 ms, and that is " \
+    assert "symmetric with M = 6 and 1 thread: its arithmetic could not be done in less than 100.00 ms, and that is " \
         "19.0" in said[BOUND]
     assert not asked([(made.point("naive"), 1.0)])
 

@@ -1,8 +1,10 @@
 """The figures of a report, each drawn from its tables. To add one: write its panels here and list it in ALL."""
+import dataclasses
 import gc
 import io
 import multiprocessing
 import pathlib
+import re
 import sys
 import textwrap
 from typing import Any, Callable, Iterable
@@ -18,37 +20,41 @@ except ImportError as problem:
     raise ResultsError(f"figures need matplotlib for {sys.executable}: {problem} (Debian: python3-matplotlib)"
                        ) from None
 
-from . import bars, over, ratios, roofline, strategies, threads
+from . import bars, cases, ladder, over, ratios, roofline, threads
 from .parts import Drawing, of_series, working
-from .sheet import sheet
+from .sheet import Panel, packed, sheet
 from .style import PAPER, Look, applied  # noqa: F401
 
 ALL: list[Drawing] = [
-    bars.LADDER, threads.SPEEDUP, threads.EFFICIENCY, threads.ALGORITHM_SPEEDUP, over.M_COMPARISON, bars.PHASE_SPLIT,
-    bars.BARRIER_WAIT, roofline.ROOFLINE, over.SIZE_SCALING, over.GRANULARITY, ratios.COMPILERS, ratios.SELF_TEST,
-    strategies.LADDER, strategies.THREADS, strategies.WORLDS]
+    ladder.LADDER, cases.CASES, threads.SPEEDUP, threads.ALGORITHM_SPEEDUP, over.M_COMPARISON, bars.PHASE_SPLIT,
+    bars.BARRIER_WAIT, roofline.ROOFLINE, over.SIZE_SCALING, over.GRANULARITY, ratios.COMPILERS, ratios.SELF_TEST]
+_DPI, _PIXELS = 130, (1600, 1200)  # a PNG is to fit a slide
 
 
-Part = tuple[str, Report]
+@dataclasses.dataclass(frozen=True)
+class Sheet:
+    """Panels of a drawing that are one file; `world`: the series in a few words, if it is of one of several."""
+    name: str
+    drawing: Drawing
+    world: str
+    panels: list[Panel]
 
 
-def parts(report: Report) -> dict[bool, list[Part]]:
-    """What figures are drawn of, by Drawing.each: every series, if there are several with words for it; or all."""
+def sheets(report: Report, look: Look = Look()) -> list[Sheet]:
+    """What the report has something to show for: NAME, NAME-2, ... of every drawing."""
     own = working(report)
-    return {True: list(of_series(own)), False: [("", own)]}
+    series, found = list(of_series(own)), []
+    for drawing in ALL:
+        some = [(world, panels) for world, part in (series if drawing.each else [("", own)])
+                for panels in packed(drawing.panels(part), look)]
+        found += [Sheet(drawing.name + (f"-{k}" if k > 1 else ""), drawing, *one) for k, one in enumerate(some, 1)]
+    return found
 
 
-def draw(drawing: Drawing, report: Report, look: Look = Look(), shown: list[Part] | None = None) -> Figure | None:
-    """The figure, with panels of all its parts, or of these alone; None if the study has nothing to show."""
-    panels = []
-    for world, part in shown or parts(report)[drawing.each]:
-        for panel in drawing.panels(part):
-            panel.title = ", ".join(filter(None, (world, panel.title)))
-            panels.append(panel)
-    if not panels:
-        return None
+def draw(one: Sheet, report: Report, look: Look = Look()) -> Figure:
+    heading = ", ".join(filter(None, (one.drawing.heading, one.world)))
     with applied(look):
-        return sheet(panels, look, f"{drawing.heading}: {report.title}", footer(report))
+        return sheet(one.panels, look, f"{heading}: {report.title}", footer(report))
 
 
 def footer(report: Report) -> str:
@@ -64,22 +70,27 @@ def footer(report: Report) -> str:
     return text + (f" Caveats: {'; '.join(said)}" if said else "") + (f"; and {more} more." if more else "")
 
 
-def draw_all(report: Report, folder: pathlib.Path) -> list[pathlib.Path]:
-    """Writes every figure that the study has something for as SVG and PNG, each file whole or not at all; returns the
-    paths. One that it has nothing for takes away the files that an earlier report left. Raises ResultsError."""
-    shown = parts(report)
+def draw_all(report: Report, folder: pathlib.Path | None, look: Look = Look()) -> list[tuple[Sheet, str]]:
+    """Draws every sheet: as SVG for a page, which is returned, and, given a folder, as NAME.png in it, each file whole
+    or not at all. PNGs of an earlier report that there is nothing for are taken away. Raises ResultsError."""
+    from .inline import inline
 
-    def files(drawing: Drawing) -> dict[str, bytes | None]:
-        figure = draw(drawing, report, shown=shown[drawing.each])
-        return {f"{drawing.name}.{kind}": figure and rendered(figure, kind) for kind in ("svg", "png")}
+    def drawn(one: Sheet) -> tuple[bytes, str]:
+        figure = draw(one, report, look)
+        png = rendered(figure, "png", look) if folder else b""
+        label = f"{one.drawing.heading}{f', {one.world}' if one.world else ''}. {one.drawing.caption}"
+        return png, inline(figure, look, f"{report.title} {one.name}", label) if one.drawing.inline else ""
 
-    found = {name: content for some in on_all_cores(files, ALL) for name, content in some.items()}
-    for name, content in found.items():
-        if content is None:
-            (folder / name).unlink(missing_ok=True)
-        else:
-            write_file(folder / name, content)
-    return [folder / name for name, content in found.items() if content is not None]
+    tasks = sheets(report, look)
+    found = on_all_cores(drawn, tasks)
+    if folder:
+        for one, (png, _) in zip(tasks, found):
+            write_file(folder / f"{one.name}.png", png)
+        own = re.compile(rf"({'|'.join(drawing.name for drawing in ALL)})(-\d+)?")
+        for path in folder.glob("*.png"):
+            if own.fullmatch(path.stem) and path.stem not in [one.name for one in tasks]:
+                path.unlink()
+    return [(one, svg) for one, (_, svg) in zip(tasks, found)]
 
 
 def rendered(figure: Figure, kind: str, look: Look = Look(), inline: str = "") -> bytes:
@@ -87,9 +98,10 @@ def rendered(figure: Figure, kind: str, look: Look = Look(), inline: str = "") -
     text as text, and its ids depend on `inline`, which is another for every figure of the page."""
     stream = io.BytesIO()
     stamp = {"svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None}}.get(kind)
+    dpi = min(_DPI, *(most / inches for most, inches in zip(_PIXELS, figure.get_size_inches())))
     with applied(look), matplotlib.rc_context({"svg.hashsalt": inline or "pairsum",
-                                                     "svg.fonttype": "none" if inline else "path"}):
-        figure.savefig(stream, format=kind, metadata=stamp)
+                                               "svg.fonttype": "none" if inline else "path"}):
+        figure.savefig(stream, format=kind, metadata=stamp, dpi=dpi if kind == "png" else "figure")
     return stream.getvalue()
 
 

@@ -1,49 +1,17 @@
-"""Where time goes, as stacked bars: all backends per pair, the phases of a step, threads waiting at barriers."""
+"""Where time goes, as stacked bars: the phases of a step, threads waiting at barriers."""
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ..load import EVALUATION
+from .. import words
 from ..model import thread_times
 from ..reports import Report
 from . import style
 from .marks import beside, boxes, few, name_rows
-from .parts import Drawing, digits, fastest, named, usual
+from .parts import Drawing, fastest, named, usual
 from .sheet import Panel
-
-#: Parts of an evaluation in their order in time, and how far each is shaded towards white, or below 0 towards black.
-_PARTS = {"prepare_s": 0.6, "zero_s": 0.85, "sum_s": 0.0, "reduce_s": -0.45}
-
-
-def _ladder(report: Report) -> list[Panel]:
-    points = report.points[report.points["pairs_interacting"] > 0].dropna(subset=[EVALUATION])
-    nanoseconds = points[[EVALUATION, *_PARTS]].mul(1e9 / points["pairs_interacting"], axis=0)
-    names = pd.Series(named(points), points.index)  # with what tells them from others of their backend
-    columns = [(title, nanoseconds.loc[some.index], names[some.index], some["backend"])
-               for title, some in fastest(points, EVALUATION)] if len(points) else []
-    right = max((table[list(_PARTS)].sum(axis=1).max() for _, table, *_ in columns), default=0)
-
-    def paint(axes: Axes, table: pd.DataFrame, names: list[str], backends: pd.Series) -> None:
-        at, left = name_rows(axes, names), np.zeros(len(table))
-        for part, towards in _PARTS.items():
-            boxes(axes, at, left, table[part], label=part, **style.BOX,
-                  facecolor=[style.shade(style.colour(backend), towards) for backend in backends])
-            left = left + table[part].to_numpy()
-        beside(axes, left, at, [f"{digits(a)} ({digits(s)})" for a, s in zip(table[EVALUATION], table["sum_s"])])
-        axes.set(xlim=(0, 1.02 * right), xlabel="time per interacting pair [ns]")
-
-    key = [Patch(label=part.removesuffix("_s"), facecolor=style.shade(style.MUTED, towards), **style.BOX)
-           for part, towards in _PARTS.items()]
-    return [Panel(title, lambda axes, how=how: paint(axes, *how), len(how[0]), key) for title, *how in columns]
-
-
-LADDER = Drawing(
-    "ladder", "All backends",
-    "Time per interacting pair of every backend at its best grid, M and granularity, the fastest on top. A bar "
-    "stacks prepare, zero, sum and reduce; the number is all of it, in brackets the sum alone.",
-    "a verified point", _ladder)
 
 
 def _phase_split(report: Report) -> list[Panel]:
@@ -60,7 +28,9 @@ def _phase_split(report: Report) -> list[Panel]:
         at, left = name_rows(axes, named(own)), np.zeros(len(own))
         for phase, colour in style.PHASES.items():
             length = 1e3 * own[phase].fillna(0).to_numpy()
-            boxes(axes, at, left, length, color=colour, linewidth=0, label=phase)
+            boxes(axes, at, left, length, color=colour, linewidth=0, label=phase,
+                  texts=[f"{name}: {phase.removesuffix('_s')} {words.time(1e-3 * one)} of {words.time(whole)}"
+                         for name, one, whole in zip(named(own), length, own["total_s"])])
             left = left + length
         axes.plot(1e3 * own["total_s"], at, label="total_s", **whole)
         few(axes.xaxis)
@@ -75,7 +45,7 @@ PHASE_SPLIT = Drawing(
     "phase_split", "Phases of a step",
     "Where the time of a step goes: medians of the phases, stacked; the black mark is the whole step. Each backend "
     "with its best granularity and block, on one thread and on its most.",
-    "phases", _phase_split)
+    "points", _phase_split)
 
 
 def _barrier_wait(report: Report) -> list[Panel]:
@@ -116,4 +86,4 @@ BARRIER_WAIT = Drawing(
     "barrier_wait", "Waiting at barriers",
     "One bar per thread of every backend on its most threads: time spent summing (solid) and waiting for other "
     "threads (light), all passes; the number is the share of the wait.",
-    "barrier waits on 2 or more threads", _barrier_wait)
+    "points", _barrier_wait)

@@ -8,7 +8,16 @@ from matplotlib.collections import PolyCollection
 from matplotlib.ticker import EngFormatter, FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import ScaledTranslation
 
+from ..words import bounded
 from .style import INK, RULE, colour
+
+
+TOLD = "told "  #: what the id of an artist begins with that says more of each of its shapes
+
+
+def told(artist: Any, shape: str, texts: Iterable[str]) -> None:
+    """What a page says of each shape of an artist ("path", or "use" of markers) that somebody points at."""
+    artist.set_gid(f"{TOLD}{shape}:" + "\n".join(texts))
 
 
 def room(lines: int) -> float:
@@ -31,12 +40,13 @@ def name_rows(axes: Axes, names: Iterable[str]) -> np.ndarray:
     return np.arange(len(names))
 
 
-def boxes(axes: Axes, at: Any, left: Any, length: Any, height: float = 0.7, **look: Any) -> None:
+def boxes(axes: Axes, at: Any, left: Any, length: Any, height: float = 0.7, texts: Iterable[str] = (), **look: Any
+          ) -> None:
     """Horizontal bars, as one artist: of many, matplotlib draws that much faster than patches."""
     x, width = np.broadcast_to(left, len(at)), np.asarray(length, dtype=float)
     corners = (np.stack([x, x, x + width, x + width], axis=1),
                np.add.outer(at, height * np.array([-0.5, 0.5, 0.5, -0.5])))
-    axes.add_collection(PolyCollection(np.stack(corners, axis=2), **look))
+    told(axes.add_collection(PolyCollection(np.stack(corners, axis=2), **look)), "path", texts)
 
 
 def beside(axes: Axes, x: Iterable[float], y: Iterable[float], texts: Iterable[str]) -> None:
@@ -78,8 +88,9 @@ def dots(axes: Axes, at: Any, table: Any, label: str) -> None:
     """Dots with their intervals on rows of names: columns "ratio", "low", "high" and, for the colour, "backend"."""
     colours = list(map(colour, table["backend"]))
     spans(axes, at, table, color=colours, linewidth=2.4, zorder=3)
-    axes.scatter(table["ratio"], at, c=colours, s=(0.62 * rcParams["font.size"]) ** 2, edgecolors=INK, linewidths=0.6,
-                 zorder=4)
+    told(axes.scatter(table["ratio"], at, c=colours, s=(0.62 * rcParams["font.size"]) ** 2, edgecolors=INK,
+                      linewidths=0.6, zorder=4), "use",
+         [f"{e.backend}: {bounded(e.ratio, e.low, e.high, 3)}" for e in table.itertuples()])
     axes.set_xlabel(label)
     few(axes.xaxis)
 

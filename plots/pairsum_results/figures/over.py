@@ -7,14 +7,15 @@ from .. import words
 from ..load import COMMON
 from ..reports import Report
 from . import style
-from .marks import at, ends, intervals, log, room
-from .parts import Drawing, fastest, named, usual
+from .marks import at, ends, intervals, log, room, told
+from .parts import LINE, Drawing, fastest, named, usual
 from .sheet import Panel
 
 
 def _line(axes: Axes, x: pd.Series, y: pd.Series, backend: str, **how) -> None:
-    axes.plot(x, y, **{"color": style.colour(backend), "linestyle": style.line(backend), "label": backend, "zorder": 3,
-                       "marker": "o", **style.EDGE, **how})
+    how = {"color": style.colour(backend), "linestyle": style.line(backend), "label": backend, "zorder": 3, "marker": "o",
+           **style.EDGE, **how}
+    told(axes.plot(x, y, **how)[0], "use", [f"{how['label']}, {a:g}: {words.short(b)}" for a, b in zip(x, y)])
 
 
 #: What does not depend on threads: column -> (title, label, logarithmic).
@@ -26,7 +27,7 @@ _WORK = {"pairs_tested": ("candidate tests", "distance tests per step [pairs]", 
 
 def _m_comparison(report: Report) -> list[Panel]:
     table = report.m_comparison.join(report.points[["pairs_tested", "cells_nonempty"]], on="point")
-    table = usual(table[table.groupby(["backend", "grid", "threads"])["M"].transform("nunique") > 1], "sum_s")
+    table = usual(table[table.groupby(["backend", "grid", "threads"])["M"].transform("nunique") >= LINE], "sum_s")
     if table.empty:
         return []
     ms = sorted(set(table["M"]))
@@ -55,7 +56,7 @@ def _m_comparison(report: Report) -> list[Panel]:
     shown = [(words.threads_words(n), own, "sum_s", "summation time [s]", True) for n, own in table.groupby("threads")]
     fewest = table[table["threads"] == table.groupby("backend")["threads"].transform("min")]
     shown += [(title, fewest.dropna(subset=[column]), column, label, logarithmic)
-              for column, (title, label, logarithmic) in _WORK.items()]
+              for column, (title, label, logarithmic) in _WORK.items() if fewest[column].nunique() > 1]
     return [Panel(title, lambda axes, how=how: paint(axes, *how), room(how[0]["backend"].nunique()))
             for title, *how in shown if len(how[0])]
 
@@ -64,7 +65,7 @@ M_COMPARISON = Drawing(
     "m_comparison", "Choice of M",
     "Summation time against M (with intervals), then why: distance tests, the share of them that folding cells onto "
     "2^(dM) adds (collisions), useful pairs, and non-empty cells. Lines that coincide are drawn once.",
-    "several M", _m_comparison)
+    "m_comparison", _m_comparison)
 
 
 def _size_scaling(report: Report) -> list[Panel]:
@@ -96,12 +97,12 @@ def _size_scaling(report: Report) -> list[Panel]:
 
 
 def fastest_of_each_size(points: pd.DataFrame):
-    """("1 thread", points) and those at most threads: each backend's fastest at every size, if it has several."""
+    """("1 thread", points) and those at most threads: each backend's fastest at every size, if it has enough."""
     for title, _ in fastest(points, "sum_s"):
         most = points["threads"] == points.groupby("backend")["threads"].transform("max")
         some = points[points["threads"] == 1] if title == "1 thread" else points[most]
         some = some.sort_values("sum_s").drop_duplicates(["backend", "particles"]).sort_values(["backend", "particles"])
-        some = some[some.groupby("backend")["particles"].transform("nunique") > 1]
+        some = some[some.groupby("backend")["particles"].transform("nunique") >= LINE]
         if len(some):
             yield title, some
 
@@ -110,7 +111,7 @@ SIZE_SCALING = Drawing(
     "size_scaling", "Size",
     "Time per sum and per interacting pair against the number of particles, each backend at its best grid, M and "
     "granularity.",
-    "a backend with several dx", _size_scaling, each=False)
+    "points", _size_scaling, each=False)
 
 _SCHEDULES = {"dynamic": ("-", "o"), "static": ((0, (5, 2)), "s"), "guided": (":", "D"), "simple": ("-", "o"),
               "auto": ((0, (1, 1)), "v"), "affinity": ((0, (3, 1, 1, 1)), "^")}
@@ -122,7 +123,7 @@ def _granularity(report: Report) -> list[Panel]:
     points = points.assign(schedule=parts[0], chunk=parts[1].astype(float))
     panels = []
     for _, own in points.groupby(["backend", "grid", "isa", "block", "M", "threads"], dropna=False):
-        if own["granularity"].nunique() > 1:
+        if own["chunk"].nunique() >= LINE:
             panels.append(Panel(named(own.head(1))[0], lambda axes, own=own: paint(axes, own)))
 
     def paint(axes: Axes, own: pd.DataFrame) -> None:
@@ -152,4 +153,4 @@ GRANULARITY = Drawing(
     "granularity", "Granularity",
     "Summation time against the chunk of the parallel loop, a line per schedule, with intervals; a schedule without "
     "a chunk is a level line.",
-    "one backend with several granularities", _granularity)
+    "points", _granularity)

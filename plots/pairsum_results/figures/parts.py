@@ -11,16 +11,20 @@ from ..self_tests import self_tests
 from .sheet import Panel
 
 
+#: Places along x from which a line says more than a table.
+LINE = 3
+
+
 @dataclasses.dataclass(frozen=True)
 class Drawing:
     """`panels` makes the panels of a report, or of one series of it if `each`; none if there is nothing to show."""
     name: str
     heading: str
     caption: str
-    needs: str  #: what was not measured where it is not drawn
+    table: str  #: that of the report whose numbers it shows
     panels: Callable[[Report], list[Panel]]
     each: bool = True  #: drawn for every series by itself
-    strategies: bool = False  #: belongs to how threads are kept apart
+    inline: bool = True  #: stands in the page as it is; otherwise the page draws the same itself
 
 
 def working(report: Report) -> Report:

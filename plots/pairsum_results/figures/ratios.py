@@ -15,7 +15,7 @@ COMPILERS = Drawing(
     "compilers", "Compilers",
     "The same backends by several builds: time with the base build over time with the other, with 95\u00a0% "
     "intervals; right of 1 the other is faster.",
-    "several builds in the same rounds", _compilers, each=False)
+    "compiler_comparison", _compilers, each=False)
 
 
 def _self_test(report: Report) -> list[Panel]:
@@ -32,4 +32,4 @@ SELF_TEST = Drawing(
     "self_test", "Self-test",
     "Does the harness find known differences, and none where there is none? Dot: measured ratio; line: its interval, "
     "at 95\u00a0% over the whole table; tall mark: expected.",
-    "backends whose behaviour is known", _self_test, each=False)
+    "self_test", _self_test, each=False)

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from .. import words
 from ..reports import Report
 from . import style
-from .marks import ends, log, room
+from .marks import ends, log, room, told
 from .parts import Drawing, named
 from .sheet import Panel
 
@@ -31,9 +31,11 @@ def _panels(report: Report) -> list[Panel]:
         best = own.sort_values("sum_s").drop_duplicates("backend")
         for p in own.itertuples():
             large = p.Index in best.index
-            axes.plot(p.intensity, p.gflops, linestyle="", color=style.colour(p.backend), marker=style.marker(p.M),
-                      markersize=7 if large else 3.5, markeredgecolor=style.INK, markeredgewidth=0.6 if large else 0.3,
-                      zorder=4 if large else 3, label=p.backend)
+            drawn, = axes.plot(
+                p.intensity, p.gflops, linestyle="", color=style.colour(p.backend), marker=style.marker(p.M),
+                markersize=7 if large else 3.5, markeredgecolor=style.INK, markeredgewidth=0.6 if large else 0.3,
+                zorder=4 if large else 3, label=p.backend)
+            told(drawn, "use", [f"{p.backend}: {p.gflops:.3g} Gflop/s at {p.intensity:.3g} flops per byte"])
         axes.set(xlabel="flops per byte (model)", ylabel="Gflop/s")
         ends(axes, zip(best["intensity"], best["gflops"], named(best, False), map(style.colour, best["backend"])))
 
@@ -45,4 +47,4 @@ ROOFLINE = Drawing(
     "roofline", "Roofline",
     "Achieved flops per second against flops per byte (a model of the work), on one thread and on the most. Grey: "
     "what the measured memory bandwidth and peak allow. Large markers: each backend at its best.",
-    "flops and bytes of the model, which rows say from schema 3 on", _panels)
+    "points", _panels)

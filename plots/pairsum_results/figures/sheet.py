@@ -3,7 +3,7 @@ import dataclasses
 import math
 import re
 import textwrap
-from typing import Any, Callable, Iterable
+from typing import Any, Callable, Iterable, Iterator
 
 import numpy as np
 import pandas as pd
@@ -16,6 +16,7 @@ from . import marks
 from .style import INK, MUTED, Look
 
 ROW = 0.024  #: inches of a row of text, per point of the font
+_AROUND = 0.09  # inches of title and axis around a panel, per point of the font
 
 
 @dataclasses.dataclass
@@ -46,6 +47,7 @@ def sheet(panels: list[Panel], look: Look, heading: str = "", footer: str = "") 
     if look.titled:
         texts.append((top, textwrap.wrap(heading, int(80 * width / font)), 1.3, {"fontweight": "bold"}))
         top += 0.024 * font * len(texts[0][1])
+    start = top
     key = list({handle.get_label(): handle for panel in panels for handle in panel.key}.values())
     key_columns, key_lines = _wrapped(key, (width - sides[0][0]) / font)
     key_top, top = top, top + 0.021 * font * key_lines
@@ -58,10 +60,12 @@ def sheet(panels: list[Panel], look: Look, heading: str = "", footer: str = "") 
         places += [((k - first) * look.panel + sides[k - first][0], top, look.panel - sum(sides[k - first]), heights[k])
                    for k in row]
         top += max(heights[k] + margins[k, 2] for k in row) + 0.012 * font
+    end = top
     if look.titled:
         texts.append((top, textwrap.wrap(footer, int(140 * width / font)), 0.8, {"color": MUTED}))
         top += 0.015 * font * (len(texts[1][1]) + 0.5)
     figure.set_size_inches(width, top)
+    figure.inner = start, end  # inches from the top between which there is neither title nor footer
     for k, (x, y, wide, high) in enumerate(places):
         figure.axes[k].set_position((x / width, 1 - (y + high) / top, wide / width, high / top))
         _spread(figure.axes[k], font)
@@ -71,6 +75,20 @@ def sheet(panels: list[Panel], look: Look, heading: str = "", footer: str = "") 
         figure.legend(handles=key, loc="upper left", bbox_to_anchor=(sides[0][0] / width, 1 - key_top / top),
                       ncol=key_columns, borderpad=0.2, borderaxespad=0, handlelength=1.4, columnspacing=1.2)
     return figure
+
+
+def packed(panels: list[Panel], look: Look) -> Iterator[list[Panel]]:
+    """The panels in sheets that are about as high as the look has room for; a panel that is higher stands alone."""
+    some, used = [], 0.0
+    for first in range(0, len(panels), look.columns):
+        row = panels[first:first + look.columns]
+        high = look.font * (ROW * max(panel.rows for panel in row) + _AROUND)
+        if some and used + high > look.height:
+            yield some
+            some, used = [], 0.0
+        some, used = some + row, used + high
+    if some:
+        yield some
 
 
 def _titled(axes: Axes, title: str, width: float, above: float) -> int:

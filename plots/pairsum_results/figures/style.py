@@ -25,15 +25,14 @@ BACKENDS = {
 }
 #: For a backend that this list does not know: a colour by its name, the same in each figure.
 SPARE = ("#7A4B1E", "#6A5ACD", "#8B8B00", "#8B0000", "#2F4F4F")
-#: How threads are kept apart (what backends say of their conflicts), a colour each.
-KINDS = {"serial": "#BDB9A6", "gather": "#E69F00", "colours": "#0072B2", "atomics": "#D55E00", "copies": "#009E73",
-         "locks": "#CC79A7", "tasks": "#56B4E9"}
+#: How threads are kept apart (what backends say of their conflicts): a colour and words for each.
+FAMILIES = {"gather": ("#E69F00", "gather: computes each pair twice"), "colours": ("#0072B2", "colours"),
+            "copies": ("#009E73", "copies that are joined"), "locks": ("#CC79A7", "locks"),
+            "tasks": ("#56B4E9", "tasks that wait"), "atomics": ("#D55E00", "atomic additions"),
+            "serial": ("#BDB9A6", "one thread"), "other": ("#8B8B8B", "other")}
 #: Phases of a step in their order in time, light and dark in turn.
 PHASES = {"index_s": "#56B4E9", "prepare_s": "#8C4A76", "zero_s": "#F0E442", "sum_s": "#0072B2", "reduce_s": "#E69F00",
           "integrate_s": "#5C5C5C"}
-#: Markers of worlds, of numbers of threads.
-MARKS = (("o", "#0072B2"), ("s", "#D55E00"), ("D", "#009E73"), ("^", "#CC79A7"), ("v", "#7A4B1E"), ("P", "#6A5ACD"),
-         ("X", "#56B4E9"), ("<", "#E69F00"))
 EDGE = {"markeredgecolor": INK, "markeredgewidth": 0.6}  #: of markers
 BOX = {"edgecolor": INK, "linewidth": 0.5}  #: of bars
 _OF_M = {5: "v", 6: "o", 7: "s", 8: "D", 9: "^", 4: "<", 10: ">"}
@@ -46,6 +45,7 @@ class Look:
     columns: int = 2
     font: float = 9.5
     titled: bool = True  #: with a title, and a footer that says what was measured where
+    height: float = 8.4  #: inches of panels on a sheet, as far as they can be parted
 
 
 PAPER = Look(panel=84 / 25.4, columns=1, font=7, titled=False)  #: a column of a journal

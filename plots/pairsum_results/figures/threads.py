@@ -1,4 +1,4 @@
-"""What threads gain: speedup and efficiency over threads, and one algorithm over another."""
+"""What threads gain, and one algorithm over another."""
 from typing import Callable, Iterable
 
 import numpy as np
@@ -9,12 +9,10 @@ from matplotlib.lines import Line2D
 from .. import words
 from ..reports import Report
 from . import style
-from .marks import at, dots, ends, intervals, name_rows, reference, room, threads_axis
-from .parts import Drawing, named, usual
+from .marks import at, dots, ends, intervals, name_rows, reference, room, threads_axis, told
+from .parts import LINE, Drawing, named, usual
 from .sheet import Panel, ratio_rows
 
-#: Numbers of threads from which lines over threads say more than rows of dots.
-_LINES_FROM = 3
 _MACHINE = {"machine_flops_scaling": ("machine's flops", "-"),
             "machine_bandwidth_scaling": ("machine's bandwidth", ":")}
 #: A grey line: its name, style, and y over x = threads.
@@ -28,8 +26,10 @@ def _lines(table: pd.DataFrame, value: str, label: str, grey: Callable[[pd.DataF
         labels = []
         for name, line in own.groupby("name", sort=False):
             line, colour = line.sort_values("threads"), style.colour(line["backend"].iloc[0])
-            axes.plot(line["threads"], line[value], color=colour, linestyle=style.line(line["backend"].iloc[0]),
-                      marker=style.marker(line["M"].iloc[0]), label=name, **style.EDGE)
+            drawn, = axes.plot(line["threads"], line[value], color=colour, linestyle=style.line(line["backend"].iloc[0]),
+                               marker=style.marker(line["M"].iloc[0]), label=name, **style.EDGE)
+            told(drawn, "use", [f"{name}, {words.threads_words(e.threads)}: {words.bounded(e.ratio, e.low, e.high)}"
+                                for e in line.itertuples()])
             if value == "ratio":
                 intervals(axes, line["threads"], line[value], line["low"], line["high"], colour)
             labels.append((line["threads"].iloc[-1], line[value].iloc[-1], name, colour))
@@ -62,7 +62,7 @@ def _speedup(report: Report) -> list[Panel]:
     table = usual(report.speedup)
     if not (table["threads"] > 1).any():
         return []
-    if table["threads"].nunique() < _LINES_FROM:
+    if table["threads"].nunique() < LINE:
         return [_rows(table[table["threads"] > 1])]
     counts = sorted(set(table["threads"]))
     drawn = table[["ratio", "low", "high", *_MACHINE]]
@@ -104,22 +104,7 @@ SPEEDUP = Drawing(
     "speedup", "Speedup",
     "Summation time with 1 thread over that with more threads, of the same backend, with 95\u00a0% intervals. Grey: "
     "ideal, and how the measured flops and memory bandwidth of the machine itself scale.",
-    "backends on one thread and on more", _speedup)
-
-
-def _efficiency(report: Report) -> list[Panel]:
-    table = usual(report.speedup)
-    if table["threads"].nunique() < _LINES_FROM:
-        return []  # the axis on top of the speedups says it
-    counts = sorted(set(table["threads"]))
-    return _lines(_panelled(table), "efficiency", "efficiency: speedup / threads",
-                  lambda own: [("ideal", "--", counts, [1.0] * len(counts))], _linear(table, ["efficiency"]))
-
-
-EFFICIENCY = Drawing(
-    "efficiency", "Efficiency",
-    "Speedup divided by the number of threads; 1 is ideal.",
-    "3 numbers of threads; for fewer, the axis on top of the speedups says it", _efficiency)
+    "speedup", _speedup)
 
 
 def _algorithm_speedup(report: Report) -> list[Panel]:
@@ -129,7 +114,7 @@ def _algorithm_speedup(report: Report) -> list[Panel]:
     other_m = table["M"].fillna(0) != table["base_M"].fillna(0)
     bases = table["base_backend"].where(~other_m, table["base_backend"] + [f", M={m:.0f}" for m in table["base_M"]])
     table = table.assign(name=named(table, False), base_name=bases, panel="base " + bases)
-    if table["threads"].nunique() >= _LINES_FROM:
+    if table["threads"].nunique() >= LINE:
         counts = sorted(set(table["threads"]))
         return _lines(table, "ratio", "time of the base / time",
                       lambda own: [("base", "--", counts, [1.0] * len(counts))], _linear(table, ["ratio", "high"]))
@@ -143,4 +128,4 @@ ALGORITHM_SPEEDUP = Drawing(
     "algorithm_speedup", "Algorithm speedup",
     "How many times as fast as its base (behind the stroke) a backend is, with the same runtime and threads, with "
     "95\u00a0% intervals; 1 is no gain.",
-    "a gather and a symmetric sum that differ in nothing else", _algorithm_speedup)
+    "algorithm_speedup", _algorithm_speedup)

@@ -1,7 +1,35 @@
 "use strict";
+// Case and threads: of what belongs to one of them, the chosen one is shown. Without this script all of it is.
+const bar = document.getElementById("bar");
+for (const [key, label] of [["threads", "Threads"], ["case", "Case"]]) {
+  const parts = [...document.querySelectorAll(`main [data-${key}]`)];
+  const values = [...new Set(parts.map((part) => part.dataset[key]))];
+  if (values.length < 2) continue;
+  const select = document.createElement("select");
+  select.append(...values.map((value) => new Option(value)));
+  const show = () => { for (const part of parts) part.classList.toggle(`other-${key}`, part.dataset[key] !== select.value); };
+  select.value = values.includes(bar.dataset[key]) ? bar.dataset[key] : values[0];
+  select.name = key;
+  select.addEventListener("change", show);
+  show();
+  const named = document.createElement("label");
+  named.append(label, " ", select);
+  bar.prepend(named);
+}
+// The command can be copied.
+for (const command of document.querySelectorAll(".command")) {
+  const button = document.createElement("button");
+  button.type = "button";
+  button.textContent = "Copy";
+  button.addEventListener("click", () => {
+    getSelection().selectAllChildren(command.querySelector("code"));
+    button.textContent = document.execCommand("copy") ? "Copied" : "Press Ctrl+C";
+  });
+  command.append(button);
+}
 // Tables sort by the column whose heading is pressed: ascending, then descending; empty cells stay last.
-const number = (text) => parseFloat(text.replace("\u2212", "-"));
-for (const head of document.querySelectorAll("thead th")) {
+const number = (text) => parseFloat(text.replace("\u2212", "-")) * ({ k: 1e3, M: 1e6, G: 1e9 }[text.slice(-1)] || 1);
+for (const head of document.querySelectorAll("#tables thead th")) {
   const button = document.createElement("button");
   button.type = "button";
   button.append(...head.childNodes);
@@ -20,19 +48,6 @@ for (const head of document.querySelectorAll("thead th")) {
     body.append(...keyed.map((item) => item.row));
   });
 }
-// The table of contents is folded on a narrow screen and folds again when a link is followed; what a link leads to opens.
-const contents = document.querySelector("#contents details");
-const wide = window.matchMedia("(min-width: 1180px)");
-const fold = () => { contents.open = wide.matches; };
-wide.addEventListener("change", fold);
-fold();
-contents.addEventListener("click", (event) => {
-  if (!event.target.matches("a")) return;
-  if (!wide.matches) contents.open = false;
-  const target = document.querySelector(event.target.getAttribute("href"));
-  const first = target.matches("h3") && target.parentNode.querySelector(`#${target.id} ~ .machines details`);
-  if (first) first.open = true;
-});
 // Printed is everything.
 window.addEventListener("beforeprint", () => {
   for (const details of document.querySelectorAll("main details")) details.open = true;
