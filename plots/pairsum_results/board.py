@@ -13,6 +13,7 @@ from .reports import Report
 
 #: The share of the machine that other processes may take before a round counts as disturbed.
 _QUIET = 0.05
+_USUAL = ("", "scalar", "none", "auto")  # what is not said of a point
 
 
 def warnings(report: Report) -> list[str]:
@@ -48,7 +49,8 @@ def card(report: Report) -> dict[str, Any] | None:
     facts = {"Fastest": f"{p['backend']} with {words.threads_words(p['threads'])}, {_place(p)}",
              "Cannot be told from it": first_few(list(dict.fromkeys(tied))),
              "Case": f"{p['case']}, {p['dim']}D, {p['state']}, spacing {p['dx']:g}",
-             "Particles": f"{words.count(p['n_fluid'])} fluid, {words.count(p['n_boundary'])} boundary",
+             "Particles": f"{words.count(p['n_fluid'])} fluid"
+             + (f", {words.count(p['n_boundary'])} boundary" if p["n_boundary"] else ""),
              "Precision": p["precision"], "Machine": f"{e['host']}: {e['cpu']}, {e['cores']} cores",
              "Rounds": f"{len(report.results.closed)}, of this point {p['rounds']}"}
     return {"text": answer.text, "numbers": numbers, "facts": {name: said for name, said in facts.items() if said},
@@ -58,7 +60,7 @@ def card(report: Report) -> dict[str, Any] | None:
 def _place(p: Any) -> str:
     """Where a point was measured, in a few words."""
     cells = f"{p['grid']}" + ("" if pd.isna(p["M"]) else f" M = {p['M']:.0f}")
-    return ", ".join([cells, *(p[name] for name in ("isa", "block") if p[name] not in ("scalar", "none"))])
+    return ", ".join([cells, *(p[name] for name in ("isa", "block") if p[name] not in _USUAL)])
 
 
 def start(report: Report) -> tuple[str, int]:
@@ -74,13 +76,13 @@ def ladders(report: Report) -> dict[tuple[str, int], dict[str, Any]]:
     """By case and number of threads: all backends against the base. Positions are in % of the width."""
     kinds, found = families(report.results), {}
     for (_, threads), own in report.standings.groupby(["series", "threads"]):
-        end = ladder.reach(own) / 100
+        end, tied = ladder.reach(own) / 100, own["tied"] & (own["tied"].sum() > 1)
         apart = [name for name in PLACE if own[name].nunique(dropna=False) > 1 and name not in ("backend", "threads",
                                                                                                   "granularity")]
         rungs = [{"name": e.backend, "detail": _detail(e, apart), "family": kinds[e.backend],
                   "at": min(e.ratio / end, 100), "low": e.low / end, "high": min(e.high / end, 100),
                   "interval": pd.notna(e.low) and e.point != e.base, "ratio": f"{e.ratio:.2f}",
-                  "time": words.time(e.time_s), "tied": e.tied, "title": _title(e)} for e in own.itertuples()]
+                  "time": words.time(e.time_s), "tied": tied[e.Index], "title": _title(e)} for e in own.itertuples()]
         found[own["world"].iloc[0], threads] = {
             "headline": ladder.headline(own), "one": 1 / end, "rungs": rungs,
             "families": {kind: text for kind, (_, text) in FAMILIES.items() if kind in set(kinds[own["backend"]])}}
@@ -92,7 +94,7 @@ def _detail(e: Any, apart: list[str]) -> str:
     values = {name: getattr(e, name) for name in apart}
     if pd.notna(values.get("M")):
         values |= {"M": f"M = {e.M:.0f}", "grid": "" if e.grid == "hashed_grid" else e.grid}
-    return ", ".join(value for value in values.values() if isinstance(value, str) and value not in ("", "scalar", "none"))
+    return ", ".join(value for value in values.values() if isinstance(value, str) and value not in _USUAL)
 
 
 def _title(e: Any) -> str:

@@ -25,9 +25,10 @@ def facts(report: Report) -> Iterator[Table]:
     environments = r.environments.reindex(columns=[*_MACHINE])
     yield _turned("Machines and builds", environments, _MACHINE, list(r.environments["host"]))
     yield _turned("Problems that were measured", r.series, _PROBLEM, list(worlds(r)))
-    yield Table("Peaks of the machine", ["threads", "precision", "Gflop/s", "GB/s"],
-                [[str(e.threads), e.precision, words.short(1e-9 * e.flops_per_s),
-                  words.short(1e-9 * e.bandwidth_bytes_per_s)] for e in r.peaks.itertuples()], 0)
+    yield Table(*words.hoisted(
+        "Peaks of the machine", ["threads", "precision", "Gflop/s", "GB/s"],
+        [[str(e.threads), e.precision, words.short(1e-9 * e.flops_per_s), words.short(1e-9 * e.bandwidth_bytes_per_s)]
+         for e in r.peaks.itertuples()], 0))
     yield Table("Points that failed the verification: their times do not count", ["backend", "cells", "threads", "case",
                                                                                   "rows", "reason"],
                 [[e.backend, cells_words(e), str(e.threads), f"{e.case}, {e.state}, spacing {e.dx:g}", str(e.rows), e.error]

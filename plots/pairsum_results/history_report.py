@@ -186,9 +186,9 @@ def page(h: History) -> str:
     changed = h.steps[h.steps["verdict"] != "not resolved"].sort_values(["newest", "ratio"], ascending=[False, True])
     rows = [[*row, verdict] for row, verdict in zip(_cells(h, changed), changed["verdict"])]
     tables = [hoisted("Time before over time now: above 1 is faster, the machine's pace taken out; pace: how much "
-                       "more the machine itself did", [*_HEADER, "now"], rows, 0)[:3],
+                       "more the machine itself did", [*_HEADER, "now"], rows, _WORDS)[:3],
               hoisted("Time on the first machine over time on the second; flops and bandwidth: peaks of the second "
-                       "over those of the first on as many threads", _MACHINE_HEADER, list(_machine_cells(h)), 0)[:3]]
+                       "over those of the first on as many threads", _MACHINE_HEADER, list(_machine_cells(h)), _WORDS)[:3]]
     return environment.get_template("history.html.j2").render(
         answer=_sentence(h), notes=notes(h), sections=sections(h), changes=tables[0], machines=tables[1], left=LEFT,
         top=TOP, width=WIDTH, height=HEIGHT, phase=h.phase.removesuffix("_s"), revisions=h.revisions)

@@ -11,12 +11,13 @@ from .self_tests import self_tests
 #: Backends of which the first that was measured is the base: the gather, which needs no strategy.
 BASES = ["naive_omp", "naive_tbb", "naive"]
 _FEWEST = 3  # backends on a ladder
-#: How backends keep threads apart whose rows are too old (schema 2) to say so, without _omp and _tbb.
+#: How backends keep threads apart whose rows are too old (schema 2) to say so; others with _omp or _tbb as without.
 _FORMER = {"naive": "gather", "naive_tiles": "gather", "sphysics_sweep": "serial", "ppm_stencil": "serial",
            "atomic_add": "atomics", "thread_private": "copies", "touched_blocks": "copies", "per_pass_buffers": "copies",
            "sliced_locks": "locks", "task_conflicts": "tasks",
-           **dict.fromkeys(("symmetric", "tiles", "colour18", "colour4", "half_cells", "sliced_2colour", "pair_list",
-                            "verlet_list"), "colours")}
+           "pair_list": "serial", **dict.fromkeys(
+               ("symmetric", "tiles", "colour18", "colour4", "half_cells", "sliced_2colour", "pair_list_omp", "pair_list_tbb",
+                "verlet_list"), "colours")}
 
 
 def ladder(results: Results) -> pd.DataFrame:
@@ -97,8 +98,8 @@ def families(results: Results) -> pd.Series:
     """How every backend keeps threads apart: "gather", "colours", "copies", "locks", "tasks", "atomics", "serial" or,
     where nobody knows, "other"."""
     said = results.backends["conflicts"]
-    names = pd.Series(said.index.str.replace("_(omp|tbb)$", "", regex=True), said.index)
-    said = said.fillna(names.map(_FORMER))
+    names = said.index.to_series()
+    said = said.fillna(names.map(_FORMER)).fillna(names.str.replace("_(omp|tbb)$", "", regex=True).map(_FORMER))
     return said.where(said.isin(list(_FORMER.values())), "other")
 
 

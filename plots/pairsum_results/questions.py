@@ -168,7 +168,7 @@ def _which_m(results: Results, table: pd.DataFrame) -> _Answer | None:
     why = "".join(f" {label}: {work[kind]}." for kind, label in kinds.items() if work.get(kind))
     verdicts = [claims.get(kind, (OPEN, ""))[0] for kind in _TALKS_M]
     return (NO if NO in verdicts else OPEN if OPEN in verdicts else YES,
-            "; ".join(number for _, number in claims.values()),
+            next((number for verdict in (NO, OPEN, YES) for found, number in claims.values() if found == verdict), ""),
             f"{', '.join(texts)}. A smaller M folds more cells together, and distances are tested in vain. A larger "
             "one costs nothing in the sweep, because only cells that hold particles are visited; what it costs is in "
             "the index, whose table has 2^(dM) entries."
@@ -176,15 +176,15 @@ def _which_m(results: Results, table: pd.DataFrame) -> _Answer | None:
 
 
 def _claim(backend: str, over_m: pd.DataFrame, best: pd.Series, m: int) -> tuple[str, str]:
-    """Is this M the best of the backend? Yes, if all others are slower, no, if it is."""
-    own = over_m[over_m["M"] == m]
+    """Is this M the best of the backend? Against the best or, if it is that itself, against the next best."""
+    own, rest = over_m[over_m["M"] == m], over_m[over_m["M"] != m]
     if own.empty:
         return OPEN, f"{backend}: M = {m} was not measured"
-    e = own.iloc[0]
-    if e["M"] == best["M"]:
-        return YES if (over_m.drop(best.name)["verdict"] == "slower").all() else OPEN, f"{backend}: M = {m} is fastest"
-    time = words.bounded(1 / e["ratio"], 1 / e["high"], 1 / e["low"], missing=" (no interval)")
-    return NO if e["verdict"] == "slower" else OPEN, f"{backend}: M = {m} takes {time} times M = {best['M']:.0f}"
+    e = own.iloc[0] if m != best["M"] else rest.loc[rest["over_best"].idxmin()]
+    low, high = 1 / e["high"], 1 / e["low"]
+    time = words.bounded(1 / e["ratio"], low, high, missing=" (no interval)")
+    return ((YES if m == best["M"] else NO) if low > 1 else OPEN,
+            f"{backend}: M = {e['M']:.0f} takes {time} times M = {best['M']:.0f}")
 
 
 def _runtime(table: pd.DataFrame) -> _Answer | None:
@@ -193,7 +193,7 @@ def _runtime(table: pd.DataFrame) -> _Answer | None:
         return None
     count = table["verdict"].value_counts()
     e = table.loc[np.fmin(table["time_s"], table["base_time_s"]).idxmin()]
-    return ({"faster": YES, "slower": NO}.get(e["verdict"], OPEN), f"{_with_bounds(e)} times ({e['algorithm']})",
+    return (_verdict(e["low"], e["high"], 1), f"{_with_bounds(e)} times ({e['algorithm']})",
             f"Of {len(table)} comparisons oneTBB is faster in {count.get('faster', 0)}, OpenMP in "
             f"{count.get('slower', 0)}, no difference is resolved in {count.get('not resolved', 0)}; OpenMP's time is "
             f"{table['ratio'].min():.3f} to {table['ratio'].max():.3f} of oneTBB's.")

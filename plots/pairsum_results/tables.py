@@ -7,7 +7,8 @@ import pandas as pd
 from .load import Results, place_words
 from .reports import Report
 from .rows import PHASES
-from .words import bounded, fixed, markdown_table, ms, names, percent, text_table, whole, wrapped
+from .words import (bounded, count, fixed, hoisted, markdown_table, names, percent, short, text_table, time, whole,
+                    wrapped)
 
 
 @dataclasses.dataclass
@@ -20,9 +21,15 @@ class Table:
 
 
 def _table(caption: str, frame: pd.DataFrame, left: int, **columns: Callable[[Any], str]) -> Table:
-    """A line per line of the frame; each column is its header (_ for a space) with what it says of the line."""
+    """A line per line of the frame; each column is its header (_ for a space) with what it says of the line. Columns
+    that say the same of all stand in the caption; nothing is left where all are such."""
     rows = [[say(e) for say in columns.values()] for e in frame.itertuples()]
-    return Table(caption, [name.replace("_", " ") for name in columns], rows, left)
+    table = Table(*hoisted(caption, [name.replace("_", " ") for name in columns], rows, left))
+    return table if len(rows) < 2 or len(table.header) > 1 else dataclasses.replace(table, rows=[])
+
+
+def ms(seconds: float) -> str:
+    return short(1e3 * seconds)
 
 
 def _ratio(e: Any, name: str = "", digits: int = 3) -> str:
@@ -37,51 +44,52 @@ def said(value: Any, yes: str = "yes", no: str = "no") -> str:
 
 def series_tables(report: Report, series: int) -> Iterator[Table]:
     """The tables of one series."""
-    named = names(report.points)
+    named = names(report.points, False)
     own = {name: table[table["series"] == series].assign(
         name=lambda t: named.reindex(t["point"] if "point" in t else t.index).to_numpy(),
         base_name=lambda t: named.reindex(t["base"]).to_numpy() if "base" in t else "")
         for name, table in report.tables.items() if "series" in table}
-    place = {"backend": lambda e: e.name, "M": lambda e: whole(e.M), "threads": lambda e: whole(e.threads)}
+    place = {"backend": lambda e: e.name, "grid": lambda e: e.grid, "M": lambda e: whole(e.M),
+             "threads": lambda e: whole(e.threads)}
     speedups = own["speedup"].set_index("point")[["ratio", "efficiency"]]
     points = own["points"].join(speedups)
     yield _table("Summation time per step, median over rounds; speedup and efficiency over the same backend on 1 "
-                 "thread", points, 1, **place, sum_ms=lambda e: ms(e.sum_s),
+                 "thread", points, 2, **place, sum_ms=lambda e: ms(e.sum_s),
                  interval=lambda e: "-" if pd.isna(e.sum_s_low) else f"[{ms(e.sum_s_low)}, {ms(e.sum_s_high)}]",
                  speedup=lambda e: fixed(e.ratio, 2), efficiency=lambda e: percent(e.efficiency),
                  ns_per_pair=lambda e: fixed(e.ns_per_pair, 3), rounds=lambda e: whole(e.rounds))
     yield _table("Algorithm speedup: summation time of the base over that of the backend, on as many threads",
-                 own["algorithm_speedup"], 2, runtime=lambda e: e.runtime, **place, ms=lambda e: ms(e.time_s),
+                 own["algorithm_speedup"], 3, runtime=lambda e: e.runtime, **place, ms=lambda e: ms(e.time_s),
                  base=lambda e: e.base_name + ("" if pd.isna(e.base_M) else f" M={e.base_M:.0f}"),
                  base_ms=lambda e: ms(e.base_time_s), speedup=_ratio)
     scaled = own["speedup"]
     yield _table("Speedup over 1 thread; how many times as many multiply-adds the machine made in the same rounds, and "
                  "what part of\nthat the sum reaches (medians over rounds)",
-                 scaled[(scaled["threads"] > 1) & scaled["machine_speedup"].notna()], 1, **place, speedup=_ratio,
+                 scaled[(scaled["threads"] > 1) & scaled["machine_speedup"].notna()], 2, **place, speedup=_ratio,
                  machine=lambda e: _ratio(e, "machine_speedup"), of_machine=lambda e: _ratio(e, "of_machine"))
     faster = {"faster": "TBB", "slower": "OpenMP", "not resolved": "not resolved"}
     yield _table("OpenMP against TBB: summation time, and OpenMP's over TBB's; not resolved: no difference at 95 % "
-                 "confidence over the\nwhole table", own["runtime_comparison"], 1, algorithm=lambda e: e.algorithm,
-                 M=place["M"], threads=place["threads"], OpenMP_ms=lambda e: ms(e.base_time_s),
+                 "confidence over the\nwhole table", own["runtime_comparison"], 2, algorithm=lambda e: e.algorithm,
+                 grid=place["grid"], M=place["M"], threads=place["threads"], OpenMP_ms=lambda e: ms(e.base_time_s),
                  TBB_ms=lambda e: ms(e.time_s), ratio=_ratio, faster=lambda e: faster[e.verdict])
     over_m = own["m_comparison"].join(report.points[["cells", "cells_nonempty", "pairs_tested"]], on="point")
     yield _table("Comparison over M: median times per step, cells, distance tests, those due to folded cells, and "
-                 "pairs found per test", over_m, 1, **place, sum_ms=lambda e: ms(e.sum_s),
-                 total_ms=lambda e: ms(e.time_s), cells=lambda e: whole(e.cells),
-                 non_empty=lambda e: whole(e.cells_nonempty), tested=lambda e: whole(e.pairs_tested),
+                 "pairs found per test", over_m, 2, **place, sum_ms=lambda e: ms(e.sum_s),
+                 total_ms=lambda e: ms(e.time_s), cells=lambda e: count(e.cells),
+                 non_empty=lambda e: count(e.cells_nonempty), tested=lambda e: count(e.pairs_tested),
                  folded=lambda e: percent(e.collision_share), useful=lambda e: fixed(e.useful_pair_ratio, 4))
     known = points[points["bound_s"].notna() | points["wait_share"].notna()]
     yield _table("Against the least time that arithmetic or memory bandwidth allows, and threads' time spent waiting "
-                 "at barriers", known, 1, **place, sum_ms=lambda e: ms(e.sum_s), bound_ms=lambda e: ms(e.bound_s),
+                 "at barriers", known, 2, **place, sum_ms=lambda e: ms(e.sum_s), bound_ms=lambda e: ms(e.bound_s),
                  of_bound=lambda e: percent(e.share_of_bound), set_by=lambda e: said(e.limited_by),
                  flop_per_byte=lambda e: fixed(e.intensity, 1),
                  Gflops=lambda e: fixed(1e-9 * e.achieved_flops_per_s, 2), waiting=lambda e: percent(e.wait_share))
     yield _table("Phases per step: median ms and share of the total (pair lists: prepare makes the list, sum sweeps "
-                 "it)", points, 1, **place, **{phase.removesuffix("_s"): _phase(phase) for phase in PHASES})
+                 "it)", points, 2, **place, **{phase.removesuffix("_s"): _phase(phase) for phase in PHASES})
     yield _strategy_table(own["ladder"])
     builds = own["compiler_comparison"]
     for (build, base), table in builds.groupby(["build", "base_build"]):
-        yield _table(f"Builds: summation time of this one, {build}\nand of the base, {base}", table, 1, **place,
+        yield _table(f"Builds: summation time of this one, {build}\nand of the base, {base}", table, 2, **place,
                      base_ms=lambda e: ms(e.base_time_s), ms=lambda e: ms(e.time_s), ratio=_ratio,
                      this_is=lambda e: e.verdict)
 
@@ -102,7 +110,7 @@ def _strategy_table(ladder: pd.DataFrame) -> Table:
     base = highest.iloc[0] if len(highest) else None
     caption = "" if base is None else (
         "Strategies: prepare, zero, sum and reduce together, each backend at its most threads; base "
-        f"{base['base_backend']} on {base['base_threads']} threads, {ms(base['base_time_s'])} ms;\n"
+        f"{base['base_backend']} on {base['base_threads']} threads, {time(base['base_time_s'])};\n"
         "memory beyond that of the leanest")
     return _table(caption, highest, 1, backend=lambda e: e.backend, M=lambda e: whole(e.M),
                   threads=lambda e: whole(e.threads), ms=lambda e: ms(e.time_s), ratio=lambda e: _ratio(e, digits=2),

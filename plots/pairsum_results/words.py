@@ -81,8 +81,8 @@ def names(points: pd.DataFrame, with_grid: bool = True) -> pd.Series:
 def hoisted(caption: str, header: list[str], rows: list[list[str]], left: int
             ) -> tuple[str, list[str], list[list[str]], int]:
     """The table without columns, but the first, that are the same in all its lines: what these say stands in the
-    caption. `left`: the columns aligned to the left."""
-    same = [k for k in range(1, len(header)) if len(rows) > 1 and len({row[k] for row in rows}) == 1]
+    caption. `left`: the columns aligned to the left, which are words; of a single line numbers stay."""
+    same = [k for k in range(1, len(header) if len(rows) > 1 else left) if len({row[k] for row in rows}) == 1]
     kept = [k for k in range(len(header)) if k not in same]
     said = [f"{header[k]}: {rows[0][k]}" for k in same if rows[0][k] not in ("", "-")]
     return ("; ".join([caption, *said]), [header[k] for k in kept], [[row[k] for k in kept] for row in rows],

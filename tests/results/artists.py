@@ -20,16 +20,17 @@ def passes(threads, sum_s):
 
 
 def _point(name, M, threads, sum_s, **change):
-    return made.point(name, M, threads, **change), sum_s, passes(threads, sum_s) if threads > 1 else {}
+    work = made.work(pairs_tested=8000000 + 500000 * (7 - (M or 7)))
+    return made.point(name, M, threads, **change), sum_s, {"work": work, **(passes(threads, sum_s) if threads > 1 else {})}
 
 
 def everything(threads=(1, 2, 4, 8, 16), rounds=6):
     """Rows that fill every figure: threads, M, granularities, sizes, builds, worlds, copies for the self-test."""
     granularity = {"omp": "dynamic:32", "tbb": "auto:32"}
-    points = [_point(f"{name}_{runtime}", M, n, time * factor * (1.1 if M == 6 else 1) / n**0.9,
+    points = [_point(f"{name}_{runtime}", M, n, time * factor * {5: 1.3, 6: 1.1, 7: 1}[M] / n**0.9,
                      granularity=granularity[runtime])
               for name, time in (("naive", 1.0), ("symmetric", 0.6)) for runtime, factor in (("omp", 1), ("tbb", 1.1))
-              for M in (6, 7) for n in threads]
+              for M in (5, 6, 7) for n in threads]
     points += [_point(name, 7, 1, time, granularity="none") for name, time in
                (("naive", 1.02), ("symmetric", 0.61), ("sphysics_sweep", 0.55))]
     points += [_point("tiles_omp", None, n, 0.2 / n, grid="compact_grid", isa="avx512", block="auto") for n in threads]
@@ -37,6 +38,8 @@ def everything(threads=(1, 2, 4, 8, 16), rounds=6):
                for word, factor in (("dynamic:64", 1.2), ("static:64", 1.3), ("static:8", 1.4), ("guided", 1.1))]
     points += [_point(name, 7, n, time / n, dx=0.012, H=0.024, n_fluid=100000, n_boundary=90000)
                for name, time in (("naive_omp", 0.1), ("symmetric_omp", 0.08), ("locks_omp", 0.09)) for n in threads]
+    points += [_point(name, 7, n, time / n, dx=0.02, H=0.04, n_fluid=20000, n_boundary=20000)
+               for name, time in (("naive_omp", 0.02), ("symmetric_omp", 0.017)) for n in threads]
     points += [(made.point(name, 7, 1), time, {"environment": OTHER}) for name, time in
                (("naive_omp", 1.2), ("symmetric_omp", 0.55))]
     points += [_point("again_naive_omp", 7, 1, 1.0), _point("slowed_20_naive_omp", 7, 1, 1.2)]

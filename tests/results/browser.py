@@ -36,6 +36,40 @@ def open_all(driver):
     driver.execute_script("for (const one of document.querySelectorAll('main details')) one.open = true")
 
 
+def show_all(driver):
+    """Unfold everything, and show every case and number of threads."""
+    open_all(driver)
+    driver.execute_script("for (const one of document.querySelectorAll('[data-case], [data-threads]'))"
+                          " one.classList.remove('other-case', 'other-threads')")
+
+
+_CLIPPED = """
+const found = [];
+for (const cell of document.querySelectorAll("th, td")) {
+  if (!cell.getClientRects().length) continue;
+  const say = (why) => found.push([cell.textContent.trim().slice(0, 40), why]);
+  if (cell.scrollWidth > cell.clientWidth + 1) say("wider than its cell");
+  let box = cell.getBoundingClientRect();
+  for (let node = cell.parentElement; node !== document.documentElement; node = node.parentElement) {
+    const how = getComputedStyle(node).overflowX, room = node.getBoundingClientRect();
+    if (how === "visible") continue;
+    if (how === "auto" || how === "scroll") {
+      const left = box.left - room.left - node.clientLeft + node.scrollLeft;
+      if (left < -1 || left + box.width > node.scrollWidth + 1) say("out of reach");
+      box = room;
+    } else if (box.left < room.left - 1 || box.right > room.right + 1) say("cut off");
+  }
+  if (box.left < -1 || box.right > document.documentElement.clientWidth + 1) say("beyond the window");
+}
+return found;
+"""
+
+
+def clipped(driver):
+    """Return (text, why) of the cells of tables that are shown and cannot be read whole, not even by scrolling a box."""
+    return [tuple(item) for item in driver.execute_script(_CLIPPED)]
+
+
 def console(driver):
     """Return what the console said since the page was loaded."""
     return [entry["message"] for entry in driver.get_log("browser")]

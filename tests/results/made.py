@@ -6,7 +6,7 @@ HEX = "0123456789abcdef"
 #: How much slower than stated everything in rounds 1 to 6 is: the same for all points, so paired ratios are exact.
 DISTURBANCE = (1.0, 1.2, 0.8, 1.4, 0.9, 1.1)
 MEDIAN = 1.05
-_TRAITS = {"naive": (False, False, "none"), "symmetric": (True, False, "colours"), "tiles": (True, True, "colours"),
+_TRAITS = {"naive": (False, False, "gather"), "symmetric": (True, False, "colours"), "tiles": (True, True, "colours"),
            "sphysics": (True, False, "serial"), "locks": (True, False, "locks"), "copies": (True, False, "copies")}
 
 

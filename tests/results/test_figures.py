@@ -1,14 +1,19 @@
 """What each figure draws equals the tables; no text lies on another; colours mean the same everywhere."""
+import dataclasses
+import struct
+
 import artists
 import made
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 import pairsum_results as pr
 from pairsum_results import figures
-from pairsum_results.figures import PAPER, Look, bars, over, ratios, roofline, strategies, style, threads
+from pairsum_results.figures import PAPER, Look, bars, cases, ladder, over, ratios, roofline, style, threads
+from pairsum_results.figures.sheet import packed
 
 PAGE = Look(titled=False)
 NARROW = Look(4.4, 1, titled=False)
@@ -28,23 +33,39 @@ def two(tmp_path_factory):
     return artists.report(tmp_path_factory.mktemp("two"), rows)
 
 
-def draw(drawing, report, look=PAGE):
-    figure = figures.draw(drawing, report, look)
-    assert figure is not None
-    return figure
+def sheets(drawing, report, look=PAGE):
+    """The figures of a drawing."""
+    return [figures.draw(one, report, look) for one in figures.sheets(report, look) if one.drawing is drawing]
 
 
 def first(drawing, report, title=""):
     """The axes of the first panel with this in its title."""
-    return next(axes for name, axes in artists.panels(draw(drawing, report)).items() if title in name)
+    return next(axes for figure in sheets(drawing, report) for name, axes in artists.panels(figure).items() if title in name)
 
 
-def test_every_figure_can_be_drawn_and_says_what_it_needs(full, two):
-    assert all(figures.draw(d, full) for d in figures.ALL)
-    missing = [d for d in figures.ALL if figures.draw(d, two) is None]
-    assert {d.name for d in missing} == {"efficiency", "barrier_wait", "size_scaling", "granularity", "compilers",
-                                         "self_test", "strategy_worlds"}
-    assert all(d.needs for d in missing)
+def test_a_figure_is_drawn_where_it_says_something(full, two):
+    assert {one.drawing for one in figures.sheets(full)} == set(figures.ALL)
+    missing = set(figures.ALL) - {one.drawing for one in figures.sheets(two)}
+    assert {d.name for d in missing} == {"barrier_wait", "m_comparison", "size_scaling", "granularity", "compilers",
+                                         "self_test", "cases"}  # talk() has two M and one size
+    assert all(d.table in full.tables for d in figures.ALL)
+
+
+def test_what_is_constant_or_has_two_places_is_no_line(full):
+    titles = [panel.title for one in figures.sheets(full) if one.drawing is over.M_COMPARISON for panel in one.panels]
+    assert {"16 threads", "candidate tests"} <= set(titles) and "non-empty cells" not in titles  # as many for every M
+    fewer = full.m_comparison[full.m_comparison["M"] > 5]
+    assert not over.M_COMPARISON.panels(dataclasses.replace(full, m_comparison=fewer))
+    sizes = full.points[full.points["n_fluid"] != 20000]
+    assert over.SIZE_SCALING.panels(full) and not over.SIZE_SCALING.panels(dataclasses.replace(full, points=sizes))
+
+
+def test_panels_are_packed_into_sheets_of_a_height(full):
+    panels = [panel for one in figures.sheets(full) if one.drawing is bars.PHASE_SPLIT for panel in one.panels]
+    assert [len(some) for some in packed(panels[:2] * 3, dataclasses.replace(PAGE, height=1.0))] == [2, 2, 2]
+    assert [len(some) for some in packed(panels[:2] * 3, dataclasses.replace(PAGE, height=100.0))] == [6]
+    names = [one.name for one in figures.sheets(full)]
+    assert len(set(names)) == len(names) and {"ladder", "ladder-2", "cases"} <= set(names)
 
 
 def test_speedups_on_two_threads_are_rows_with_their_intervals(two):
@@ -59,18 +80,16 @@ def test_speedups_on_two_threads_are_rows_with_their_intervals(two):
     assert axes.child_axes[0].get_xlabel() == "efficiency: speedup / threads"
 
 
-@pytest.mark.parametrize("drawing, value", [(threads.SPEEDUP, "ratio"), (threads.EFFICIENCY, "efficiency")])
-def test_speedups_on_many_threads_are_lines(full, drawing, value):
+def test_speedups_on_many_threads_are_lines(full):
     table = full.speedup[(full.speedup["series"] == 0) & (full.speedup["M"] == 7)]
-    wanted = {backend: [(t, pytest.approx(v)) for t, v in zip(own["threads"], own[value])]
+    wanted = {backend: [(t, pytest.approx(v)) for t, v in zip(own["threads"], own["ratio"])]
               for backend, own in table.groupby("backend")}
-    axes = first(drawing, full, "hashed_grid M=7")
+    axes = first(threads.SPEEDUP, full, "hashed_grid M=7")
     drawn = artists.lines(axes)
     assert {name: drawn[name] for name in wanted} == wanted
     assert [x for x, _ in drawn["ideal"]] == list(axes.get_xticks()) == [1, 2, 4, 8, 16]
     assert axes.get_xscale() == "log"
-    assert ("machine's flops" in drawn) == (value == "ratio")
-    assert len(axes.containers) == (4 if value == "ratio" else 0)  # error bars
+    assert "machine's flops" in drawn and len(axes.containers) == 4  # error bars
 
 
 def test_algorithm_speedups_name_their_base(two, full):
@@ -78,22 +97,40 @@ def test_algorithm_speedups_name_their_base(two, full):
     axes = first(threads.ALGORITHM_SPEEDUP, two)
     assert [x for x, _ in artists.dots(axes)] == pytest.approx(list(table["ratio"]))
     assert {"symmetric_omp, M=6 / naive_omp", "symmetric, M=6 / naive, M=7"} <= set(artists.names(axes))
-    titles = " ".join(artists.panels(draw(threads.ALGORITHM_SPEEDUP, full)))
+    titles = " ".join(title for figure in sheets(threads.ALGORITHM_SPEEDUP, full) for title in artists.panels(figure))
     assert "base naive_omp, M=7" in titles and "base naive_tbb" in titles
 
 
-def test_the_ladder_stacks_the_parts_of_each_backend_at_its_best_fastest_first(two):
-    axes, points = first(bars.LADDER, two), two.points[two.points["threads"] == 1]
-    best = points.sort_values("evaluation_s").drop_duplicates("backend")
-    assert [name.split(",")[0] for name in artists.names(axes)] == list(best["backend"])
-    left = np.zeros(len(best))
-    for part in ("prepare_s", "zero_s", "sum_s", "reduce_s"):
-        length = 1e9 * (best[part] / best["pairs_interacting"]).to_numpy()
-        assert np.array(artists.bars(axes, part)) == pytest.approx(np.stack([left, left + length], axis=1))
-        left += length
-    said = [text.get_text() for text in axes.texts]
-    assert [float(text.split()[0]) for text in said] == pytest.approx(
-        list(1e9 * best["evaluation_s"] / best["pairs_interacting"]), rel=6e-3)
+def test_the_ladder_has_each_backend_at_its_best_fastest_first(two):
+    axes, own = first(ladder.LADDER, two, "2 threads"), two.standings[two.standings["threads"] == 2]
+    best = two.points[two.points["threads"] == 2].sort_values("total_s").drop_duplicates("backend")
+    assert [name.split(",")[0] for name in artists.names(axes)] == list(best["backend"]) == list(own["backend"])
+    assert [right for _, right in artists.bars(axes, "ratio")] == pytest.approx(list(own["ratio"]))
+    assert [text.get_text() for text in axes.texts] == [f"{e.ratio:.2f} ({1e3 * e.time_s:.0f} ms)" if e.time_s < 0.9995 else
+                                                        f"{e.ratio:.2f} ({e.time_s:.2f} s)" for e in own.itertuples()]
+    kinds = dict(zip(own["backend"], [path.get_facecolor()[k] for path in axes.collections if path.get_label() == "ratio"
+                                      for k in range(len(own))]))
+    assert tuple(kinds["naive_omp"][:3]) == to_rgb(style.FAMILIES["gather"][0]) != tuple(kinds["symmetric_omp"][:3])
+
+
+def test_standings_are_against_the_gather_and_the_fastest(two, full):
+    own = two.standings[two.standings["threads"] == 2].set_index("backend")
+    assert set(own["base_backend"]) == {"naive_omp"} and own["ratio"]["symmetric_omp"] == pytest.approx(2)
+    assert own["behind"]["naive_omp"] == pytest.approx(2) and own["tied"].to_dict() == {
+        "symmetric_omp": True, "symmetric_tbb": False, "naive_omp": False, "naive_tbb": False}
+    assert set(full.standings["threads"]) == {1, 2, 4, 8, 16}
+    assert not full.standings["backend"].str.contains("slowed|again").any()
+    alone = full.standings.groupby(["series", "threads"]).size()
+    assert alone.min() > 1
+
+
+def test_cases_are_the_times_over_the_fastest_of_each(full):
+    axes = first(cases.CASES, full)
+    most = full.standings.groupby("series")["threads"].transform("max")
+    own = full.standings[full.standings["threads"] == most]
+    assert sorted(text.get_text() for text in axes.texts) == sorted(own["behind"].map("{:.2f}".format))
+    assert len(artists.names(axes)) == own["backend"].nunique()
+    assert [cases.shade(value) for value in (1, 1.04, 1.05, 1.3, 2, 3, 9)] == [0, 0, 1, 2, 3, 4, 5]
 
 
 def test_phases_add_up(two):
@@ -161,26 +198,10 @@ def test_ratios_are_dots_with_intervals_and_a_word(full, drawing, table):
     assert sorted(text.get_text() for text in axes.texts) == sorted(words)
 
 
-def test_strategies_are_the_ladder(full):
-    axes = first(strategies.LADDER, full, "1 thread; base naive_omp")
-    own = full.ladder[(full.ladder["series"] == 0) & (full.ladder["at"] == "one_thread")]
-    own = own[~own["backend"].str.match("again|slowed")]
-    assert [right for _, right in artists.bars(axes, "ratio")] == pytest.approx(list(own["ratio"]))
-    assert [name.split(",")[0] for name in artists.names(axes)] == list(own["backend"])
-    most, more = full.ladder[full.ladder["at"] == "most_threads"], full.over_threads[full.over_threads["series"] == 0]
-    more = more[more.groupby("backend")["threads"].transform("max") > 1]
-    for drawing, table, by in ((strategies.THREADS, more, "threads"), (strategies.WORLDS, most, "world")):
-        axes = first(drawing, full)
-        drawn = [line for line in axes.lines if line.get_label() != "equal"]
-        assert len(drawn) == table[by].nunique()
-        spots = [(artists.names(axes)[round(y)], x) for line in drawn for x, y in line.get_xydata()]
-        assert sorted(spots) == [(b, pytest.approx(r)) for b, r in sorted(zip(table["backend"], table["ratio"]))]
-
-
 @pytest.mark.parametrize("look", [Look(), PAGE, NARROW, PAPER], ids=["file", "page", "narrow", "paper"])
 @pytest.mark.parametrize("drawing", figures.ALL, ids=lambda drawing: drawing.name)
 def test_no_text_lies_on_another_or_leaves_the_figure(full, two, drawing, look):
-    for figure in filter(None, (figures.draw(drawing, report, look) for report in (full, two))):
+    for figure in (figure for report in (full, two) for figure in sheets(drawing, report, look)):
         with figures.applied(look):
             assert artists.overlaps(figure) == []
         if look is PAPER:
@@ -189,7 +210,7 @@ def test_no_text_lies_on_another_or_leaves_the_figure(full, two, drawing, look):
 
 
 def test_texts_on_each_other_and_beyond_the_edge_are_found(two):
-    figure = draw(bars.LADDER, two)
+    figure = sheets(ladder.LADDER, two)[0]
     for x, text in ((0.5, "one text"), (0.5, "another text"), (0.98, "beyond")):
         figure.text(x, 0.5, text)
     assert {("one text", "another text"), ("beyond", "page")} <= set(artists.overlaps(figure))
@@ -203,8 +224,6 @@ def shades(colours):
 
 def test_neighbours_in_a_bar_differ_in_grey():
     assert shades(style.PHASES.values()) > 15
-    parts = [style.shade(style.MUTED, towards) for towards in bars._PARTS.values()]
-    assert shades(parts) > 12
     assert shades(["#0072B2", "#D55E00"]) < 15  # a pair that would not
 
 
@@ -217,27 +236,35 @@ def test_a_backend_has_one_colour_and_each_known_one_its_own():
 
 @pytest.mark.parametrize("drawing", figures.ALL, ids=lambda drawing: drawing.name)
 def test_copies_for_the_self_test_are_in_its_figure_alone(full, drawing):
-    said = " ".join(text.get_text() for text in draw(drawing, full).findobj(artists.Text))
+    said = " ".join(text.get_text() for figure in sheets(drawing, full) for text in figure.findobj(artists.Text))
     assert "slowed_20" not in said and "again_" not in said
     assert ("slowed 20 %" in said) == (drawing.name == "self_test")
 
 
 def test_figures_are_written_whole_and_old_ones_go(two, tmp_path, monkeypatch):
-    (tmp_path / "roofline.svg").write_text("old")
-    (tmp_path / "compilers.png").write_text("old")
-    paths = figures.draw_all(two, tmp_path)
-    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(path.name for path in paths)
-    assert not (tmp_path / "compilers.png").exists() and (tmp_path / "roofline.svg").read_text() != "old"
+    for name in ("ladder", "ladder-9", "compilers", "my-own"):
+        (tmp_path / f"{name}.png").write_text("old")
+    drawn = figures.draw_all(two, tmp_path)
+    assert {path.stem for path in tmp_path.iterdir()} == {one.name for one, _ in drawn} | {"my-own"}
+    paths = [tmp_path / f"{one.name}.png" for one, _ in drawn]
+    assert "ladder.png" in {path.name for path in paths}
     for path in paths:
         data = path.read_bytes()
-        assert data.startswith(b"\x89PNG") and data.endswith(b"IEND\xaeB`\x82") or data.rstrip().endswith(b"</svg>")
+        assert data.startswith(b"\x89PNG") and data.endswith(b"IEND\xaeB`\x82")
+    assert all(svg.startswith("<svg") == one.drawing.inline for one, svg in drawn)
     before = {path: path.read_bytes() for path in paths}
-    figures.draw_all(two, tmp_path)
-    assert {path: path.read_bytes() for path in paths} == before
+    assert figures.draw_all(two, tmp_path) and {path: path.read_bytes() for path in paths} == before
     monkeypatch.setattr(Figure, "savefig", lambda *_, **__: (_ for _ in ()).throw(OSError("disk full")))
     with pytest.raises(OSError):
         figures.draw_all(two, tmp_path)
-    assert {path: path.read_bytes() for path in sorted(tmp_path.iterdir())} == {p: before[p] for p in sorted(before)}
+    assert {path: path.read_bytes() for path in paths} == before
+
+
+def test_a_png_fits_a_slide_however_high_its_panels_are():
+    with figures.applied(Look()):
+        figure = Figure(figsize=(10, 30))
+    data = figures.rendered(figure, "png")
+    assert struct.unpack(">II", data[16:24]) == (400, 1200)
 
 
 def test_a_folder_that_cannot_be_written_to_is_one_line(two, tmp_path):
@@ -249,7 +276,7 @@ def test_a_folder_that_cannot_be_written_to_is_one_line(two, tmp_path):
 def test_texts_are_drawn_as_they_are(tmp_path):
     rows = made.study(made.talk(), before=[made.environment(cpu="a$b$ \\frac{1} {{ 7 * 7 }}")])
     report = artists.report(tmp_path, rows)
-    figure = draw(bars.LADDER, report, Look())
+    figure = sheets(ladder.LADDER, report, Look())[0]
     assert "a$b$ \\frac{1}" in " ".join(text.get_text() for text in figure.texts)
     assert figures.rendered(figure, "png")
     assert pd.notna(report.points["sum_s"]).all()

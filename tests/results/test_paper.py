@@ -38,7 +38,7 @@ def test_everything_for_a_paper_is_written(report, tmp_path):
         if path.suffix == ".pdf":
             box = re.search(rb"/MediaBox \[ 0 0 ([\d.]+) ", path.read_bytes())
             assert float(box[1]) == pytest.approx(84 / 25.4 * 72, abs=0.01) and b"/Type3" not in path.read_bytes()
-    figure = figures.draw(figures.ALL[0], report, figures.PAPER)
+    figure = figures.draw(figures.sheets(report, figures.PAPER)[0], report, figures.PAPER)
     assert figures.rendered(figure, "pdf") == figures.rendered(figure, "pdf")
 
 

@@ -29,7 +29,7 @@ def test_details_are_what_was_measured(asked):
     # 1e9 flops at 1e10 per s on 1 thread, 1e8 bytes at 1e9 per s: 100 ms, of symmetric's 525 ms.
     assert "symmetric with M = 6 and 1 thread: its arithmetic could not be done in less than 100.00 ms, and that is " \
         "19.0" in said[BOUND]
-    assert not asked([(made.point("naive"), 1.0)])
+    assert list(asked([(made.point("naive"), 1.0)])) == [BOUND]
 
 
 def pairs(symmetric, gain=2.0, change=None):
@@ -59,8 +59,8 @@ def test_scaling_as_well_has_a_margin(asked, gain, change, verdict, number):
 
 
 @pytest.mark.parametrize("times, verdict, number", [
-    ((1.0, 0.9, 0.5, 0.6), "Yes", "naive_omp: M = 7 is fastest; symmetric_omp: M = 6 is fastest"),
-    ((1.0, 0.9, 0.6, 0.5), "No", "naive_omp: M = 7 is fastest; symmetric_omp: M = 6 takes 1.20 [1.20, 1.20] times M = 7"),
+    ((1.0, 0.9, 0.5, 0.6), "Yes", "naive_omp: M = 6 takes 1.11 [1.11, 1.11] times M = 7"),
+    ((1.0, 0.9, 0.6, 0.5), "No", "symmetric_omp: M = 6 takes 1.20 [1.20, 1.20] times M = 7"),
     ((0.9, 1.0, 0.5, 0.6), "No", "naive_omp: M = 7 takes 1.11")])
 def test_the_talks_m_are_held_against_the_best(asked, times, verdict, number):
     places = [made.point(name, m, 2) for name in ("naive_omp", "symmetric_omp") for m in (6, 7)]

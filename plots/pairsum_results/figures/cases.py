@@ -46,7 +46,7 @@ def _panels(report: Report) -> list[Panel]:
             axes.text(x, y, f"{value:.2f}", ha="center", va="center", fontsize="small")
         axes.set_xlim(-0.5, len(columns) - 0.5)
         axes.xaxis.tick_top()
-        width = max(8, 60 // len(columns))
+        width = max(7, 48 // len(columns))
         axes.set_xticks(range(len(columns)), [textwrap.fill(names[series].replace("_", " "), width) for series in columns])
         axes.tick_params(axis="x", length=0)
         axes.grid(False)
