@@ -133,17 +133,6 @@ def _serial(results: Results, table: pd.DataFrame) -> pd.Series:
     return pairs.groupby("rung")["point_serial"].min().reindex(table.index)
 
 
-def over_threads(results: Results, ladders: pd.DataFrame) -> pd.DataFrame:
-    """Each backend over threads, as it was at its best on the most, against the base of its series on one thread."""
-    one = ladders[ladders["at"] == "one_thread"].drop_duplicates("series").set_index("series")["base"]
-    best = ladders[(ladders["at"] == "most_threads") & ladders["series"].isin(one.index)]
-    alike, times = results.alike("threads"), results.times(EVALUATION)
-    group = alike.reindex(best["point"]).to_numpy()
-    pairs = pd.DataFrame({"series": best["series"].to_numpy(), "group": group}).reset_index(names="order").merge(
-        alike[times.notna()].rename("group").reset_index(), on="group").sort_values(["order", "point"])
-    return compared(results, pairs["series"].map(one), pairs["point"], EVALUATION).drop(columns=["verdict", "p"])
-
-
 def worlds(results: Results) -> pd.Series:
     """Every series in a few words: "dam_break 3D", "random_clustered 3D, H = 0.4 dx"."""
     series, words = results.series, []

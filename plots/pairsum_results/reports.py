@@ -15,7 +15,7 @@ from .self_tests import self_test
 @dataclasses.dataclass
 class Report:
     """`points` are those of the results with what models and shares say; the other tables are what the functions of
-    their names give, with `standings`, `ladder`, `over_threads`, `shifts` and `strategies` of ladders.py."""
+    their names give, with `standings`, `ladder`, `shifts` and `strategies` of ladders.py."""
     results: Results
     title: str
     points: pd.DataFrame
@@ -26,7 +26,6 @@ class Report:
     m_comparison: pd.DataFrame
     standings: pd.DataFrame
     ladder: pd.DataFrame
-    over_threads: pd.DataFrame
     shifts: pd.DataFrame
     strategies: pd.DataFrame
     self_test: pd.DataFrame
@@ -52,8 +51,7 @@ def report(results: Results) -> Report:
     studies, hosts = results.series["study"].unique(), results.environments["host"].unique()
     return Report(results, f"{', '.join(studies)} on {', '.join(hosts)}", points, **of_points,
                   standings=ladders.standings(results), ladder=found,
-                  over_threads=ladders.over_threads(results, found), shifts=shifted,
-                  strategies=ladders.strategies(results, found, shifted), self_test=tested, answer=said,
+                  shifts=shifted, strategies=ladders.strategies(results, found, shifted), self_test=tested, answer=said,
                   questions=asked, caveats=_caveats(results, of_points, tested))
 
 

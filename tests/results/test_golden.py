@@ -30,7 +30,6 @@ def condensed(report):
     r, points, bounds = report.results, report.points, ("ratio", "low", "high")
     backend = points["backend"]
     ladder = report.ladder.assign(base=report.ladder["base"].map(backend))
-    threads = report.over_threads.assign(base=report.over_threads["base"].map(backend))
     timed = [f"{name}{end}" for name in ("sum_s", "total_s") for end in ("", "_low", "_high")]
     answer = report.answer
     return {
@@ -44,7 +43,6 @@ def condensed(report):
         "ladder": rows(ladder, "point", "base", "at", "rank", "of", "time_s", *bounds, "verdict",
                        *(f"{name}{end}" for name in ("over_serial", "efficiency") for end in ("", "_low", "_high")),
                        "extra_bytes", "world") if len(ladder) else [],
-        "over_threads": rows(threads, "point", "base", *bounds, "rounds"),
         "shifts": rows(report.shifts, "series", "backend", "base_series", "what", "rank", "base_rank", *bounds, "verdict"),
         "breaks_down": rows(report.strategies, "backend", "breaks_down"),
         "self_test": sorted(rows(report.self_test, "backend", "threads", "expected", *bounds, "confidence", "holds")),

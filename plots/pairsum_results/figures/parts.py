@@ -64,10 +64,6 @@ def fastest(points: pd.DataFrame, time: str) -> Iterator[tuple[str, pd.DataFrame
             yield title, some.sort_values(time).drop_duplicates("backend")
 
 
-def digits(value: float) -> str:
-    return f"{value:.1f}" if value >= 10 else f"{value:#.3g}"
-
-
 def named(table: pd.DataFrame, threads: bool = True) -> list[str]:
     """Lines of a table in words: "tiles_omp avx512, M=6, 2 thr."; of points on different grids with these."""
     grids = table["grid"].nunique() > 1
