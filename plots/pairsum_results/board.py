@@ -17,11 +17,9 @@ _USUAL = ("", "scalar", "none", "auto")  # what is not said of a point
 
 
 def warnings(report: Report) -> list[str]:
-    """What to know before any number: disturbed rounds, an open answer, points that failed their verification."""
-    shares, answer, failed = report.results.closed["others_share"], report.answer, report.results.failed
+    """What to know before any number: disturbed rounds, points that failed their verification."""
+    shares, failed = report.results.closed["others_share"], report.results.failed
     found = []
-    if answer and not answer.decided:
-        found.append(f"Nothing is decided: {answer.reason}.")
     if disturbed := int((shares > _QUIET).sum()):
         found.append(f"{disturbed} of {len(shares)} rounds were disturbed: other processes took up to "
                      f"{100 * shares.max():.2g} % of the machine. Small differences may come from that.")
@@ -32,28 +30,28 @@ def warnings(report: Report) -> list[str]:
 
 
 def card(report: Report) -> dict[str, Any] | None:
-    """The answer in numbers with intervals, or in words where there are none, and what it is the answer to."""
+    """The answer in numbers with intervals, none if it is open, and what it is the answer to."""
     answer = report.answer
     if answer is None:
         return None
     p, e = report.points.loc[answer.point], report.results.environments.drop_duplicates("build").iloc[0]
     numbers = []
     for over, than in ((answer.over_gather, "the gather"), (answer.over_symmetric, "the symmetric sum")):
-        if over and answer.decided and pd.notna(over["low"]):
+        if over and pd.notna(over["low"]):
             numbers.append((f"{over['ratio']:.2f} times", f"as fast as {than}, {over['name']}",
                             words.between(over["low"], over["high"], "{:.2f}".format)))
     if pd.notna(p["total_s_low"]):
         numbers.append((words.time(p["total_s"]), "a step",
                         words.between(p["total_s_low"], p["total_s_high"], words.time)))
     tied = [report.points["backend"][k] for k in answer.ties]
-    facts = {"Fastest": f"{p['backend']} with {words.threads_words(p['threads'])}, {_place(p)}",
+    facts = {"Fastest" if answer.decided else "Fastest so far": f"{p['backend']} with {words.threads_words(p['threads'])}, {_place(p)}",
              "Cannot be told from it": first_few(list(dict.fromkeys(tied))),
              "Case": f"{p['case']}, {p['dim']}D, {p['state']}, spacing {p['dx']:g}",
              "Particles": f"{words.count(p['n_fluid'])} fluid"
              + (f", {words.count(p['n_boundary'])} boundary" if p["n_boundary"] else ""),
              "Precision": p["precision"], "Machine": f"{e['host']}: {e['cpu']}, {e['cores']} cores",
              "Rounds": f"{len(report.results.closed)}, of this point {p['rounds']}"}
-    return {"text": answer.text, "numbers": numbers, "facts": {name: said for name, said in facts.items() if said},
+    return {"text": answer.text, "numbers": numbers if answer.decided else [], "facts": {name: said for name, said in facts.items() if said},
             "decided": answer.decided, "command": answer.command}
 
 
