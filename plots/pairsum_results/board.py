@@ -44,15 +44,16 @@ def card(report: Report) -> dict[str, Any] | None:
         numbers.append((words.time(p["total_s"]), "a step",
                         words.between(p["total_s_low"], p["total_s_high"], words.time)))
     tied = [report.points["backend"][k] for k in answer.ties]
-    facts = {"Fastest" if answer.decided else "Fastest so far": f"{p['backend']} with {words.threads_words(p['threads'])}, {_place(p)}",
+    fastest = "Fastest" if answer.decided else "Fastest so far"
+    facts = {fastest: f"{p['backend']} with {words.threads_words(p['threads'])}, {_place(p)}",
              "Cannot be told from it": first_few(list(dict.fromkeys(tied))),
              "Case": f"{p['case']}, {p['dim']}D, {p['state']}, spacing {p['dx']:g}",
              "Particles": f"{words.count(p['n_fluid'])} fluid"
              + (f", {words.count(p['n_boundary'])} boundary" if p["n_boundary"] else ""),
              "Precision": p["precision"], "Machine": f"{e['host']}: {e['cpu']}, {e['cores']} cores",
              "Rounds": f"{len(report.results.closed)}, of this point {p['rounds']}"}
-    return {"text": answer.text, "numbers": numbers if answer.decided else [], "facts": {name: said for name, said in facts.items() if said},
-            "decided": answer.decided, "command": answer.command}
+    return {"text": answer.text, "decided": answer.decided, "numbers": numbers if answer.decided else [],
+            "facts": {name: said for name, said in facts.items() if said}, "command": answer.command}
 
 
 def _place(p: Any) -> str:
