@@ -117,6 +117,6 @@ def _behind(e: pd.Series | None) -> dict[str, Any]:
     if e is None:
         return {"text": "-", "shade": len(cases.STEPS), "title": "not measured"}
     return {"text": f"{e['behind']:.2f}", "shade": cases.shade(e["behind"]),
-            "title": f"{e['backend']}, {e['world']}, {words.threads_words(e['threads'])}: {words.time(e['time_s'])} a step, "
-            f"{words.bounded(e['behind'], e['behind_low'], e['behind_high'])} times the fastest; rank {e['rank']} of "
+            "title": f"{e['backend']}, {e['world']}, {words.threads_words(e['threads'])}: {words.time(e['time_s'])} a "
+            f"step, {words.bounded(e['behind'], e['behind_low'], e['behind_high'])} times the fastest; rank {e['rank']} of "
             f"{e['of']}"}

@@ -29,10 +29,10 @@ def facts(report: Report) -> Iterator[Table]:
         "Peaks of the machine", ["threads", "precision", "Gflop/s", "GB/s"],
         [[str(e.threads), e.precision, words.short(1e-9 * e.flops_per_s), words.short(1e-9 * e.bandwidth_bytes_per_s)]
          for e in r.peaks.itertuples()], 0))
-    yield Table("Points that failed the verification: their times do not count", ["backend", "cells", "threads", "case",
-                                                                                  "rows", "reason"],
-                [[e.backend, cells_words(e), str(e.threads), f"{e.case}, {e.state}, spacing {e.dx:g}", str(e.rows), e.error]
-                 for e in r.failed.itertuples()], 6)
+    yield Table("Points that failed the verification: their times do not count",
+                ["backend", "cells", "threads", "case", "rows", "reason"],
+                [[e.backend, cells_words(e), str(e.threads), f"{e.case}, {e.state}, spacing {e.dx:g}", str(e.rows),
+                  e.error] for e in r.failed.itertuples()], 6)
 
 
 def _turned(caption: str, frame: pd.DataFrame, names: dict[str, str], columns: list[str]) -> Table:
@@ -43,7 +43,8 @@ def _turned(caption: str, frame: pd.DataFrame, names: dict[str, str], columns: l
 
 def _fact(name: str, value: Any) -> str:
     if isinstance(value, dict):
-        return ", ".join(f"{key} {f'{some / 1024:.0f} KiB' if name == 'caches' else some}" for key, some in value.items())
+        return ", ".join(f"{key} {f'{some / 1024:.0f} KiB' if name == 'caches' else some}"
+                         for key, some in value.items())
     if pd.isna(value):
         return ""
     if isinstance(value, bool):

@@ -16,8 +16,8 @@ _FORMER = {"naive": "gather", "naive_tiles": "gather", "sphysics_sweep": "serial
            "atomic_add": "atomics", "thread_private": "copies", "touched_blocks": "copies", "per_pass_buffers": "copies",
            "sliced_locks": "locks", "task_conflicts": "tasks",
            "pair_list": "serial", **dict.fromkeys(
-               ("symmetric", "tiles", "colour18", "colour4", "half_cells", "sliced_2colour", "pair_list_omp", "pair_list_tbb",
-                "verlet_list"), "colours")}
+               ("symmetric", "tiles", "colour18", "colour4", "half_cells", "sliced_2colour", "pair_list_omp",
+                "pair_list_tbb", "verlet_list"), "colours")}
 
 
 def ladder(results: Results) -> pd.DataFrame:
@@ -80,8 +80,9 @@ def standings(results: Results) -> pd.DataFrame:
     groups = rungs.groupby(keys)
     rungs["rank"], rungs["of"] = groups.cumcount() + 1, groups["backend"].transform("size")
     rungs["fastest"], slowest = groups["point"].transform("first"), groups["point"].transform("last")
-    gathers = rungs.assign(order=rungs["backend"].map({name: k for k, name in enumerate(BASES)})).dropna(subset=["order"])
-    gathers = gathers.sort_values("order").drop_duplicates(keys).set_index(keys)["point"]
+    order = {name: k for k, name in enumerate(BASES)}
+    gathers = rungs.assign(order=rungs["backend"].map(order)).dropna(subset=["order"]).sort_values("order")
+    gathers = gathers.drop_duplicates(keys).set_index(keys)["point"]
     rungs["base"] = gathers.reindex(pd.MultiIndex.from_frame(rungs[keys])).set_axis(rungs.index).fillna(slowest)
     rungs = rungs[rungs["of"] > 1].reset_index(drop=True)
     table = compared(results, rungs["base"], rungs["point"], "total_s").assign(

@@ -95,7 +95,8 @@ def _facts(report: Report) -> _Headed:
 def _by_heading(of_machines: Iterable[_Headed]) -> dict[str, list[list[tuple[str, Any]]]]:
     """A list per machine for every heading."""
     found = list(of_machines)
-    return {heading: [one.get(heading, []) for one in found] for heading in dict.fromkeys(h for one in found for h in one)}
+    headings = dict.fromkeys(heading for one in found for heading in one)
+    return {heading: [one.get(heading, []) for one in found] for heading in headings}
 
 
 def _figures(drawn: list[list[tuple[Sheet, str]]]) -> list[tuple[Any, list[list[tuple[str, Any]]]]]:

@@ -83,8 +83,8 @@ def _twice(table: pd.DataFrame) -> _Answer | None:
     e = table.loc[table["time_s"].idxmin()]
     verdict = _verdict(e["low"], e["high"], 2)
     return (verdict, f"{_with_bounds(e)} times ({e['backend']} over {e['base_backend']})",
-            f"On {words.threads_words(table['threads'].iloc[0])}: {', '.join(texts)}. Each pair is computed once instead of "
-            "twice, but its distance is tested and both particles are written"
+            f"On {words.threads_words(table['threads'].iloc[0])}: {', '.join(texts)}. Each pair is computed once instead "
+            "of twice, but its distance is tested and both particles are written"
             + ("." if verdict == YES else ", so half the evaluations is not half the time."))
 
 

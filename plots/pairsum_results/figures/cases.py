@@ -47,7 +47,8 @@ def _panels(report: Report) -> list[Panel]:
         axes.set_xlim(-0.5, len(columns) - 0.5)
         axes.xaxis.tick_top()
         width = max(7, 48 // len(columns))
-        axes.set_xticks(range(len(columns)), [textwrap.fill(names[series].replace("_", " "), width) for series in columns])
+        axes.set_xticks(range(len(columns)),
+                        [textwrap.fill(names[series].replace("_", " "), width) for series in columns])
         axes.tick_params(axis="x", length=0)
         axes.grid(False)
 

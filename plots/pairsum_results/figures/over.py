@@ -13,8 +13,8 @@ from .sheet import Panel
 
 
 def _line(axes: Axes, x: pd.Series, y: pd.Series, backend: str, **how) -> None:
-    how = {"color": style.colour(backend), "linestyle": style.line(backend), "label": backend, "zorder": 3, "marker": "o",
-           **style.EDGE, **how}
+    how = {"color": style.colour(backend), "linestyle": style.line(backend), "label": backend, "zorder": 3,
+           "marker": "o", **style.EDGE, **how}
     told(axes.plot(x, y, **how)[0], "use", [f"{how['label']}, {a:g}: {words.short(b)}" for a, b in zip(x, y)])
 
 
