@@ -2,15 +2,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include <pairsum/core/error.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/plan/levels.hpp"
+#include "harness/plan/narrow.hpp"
 #include "harness/plan/study.hpp"
 #include "harness/plugin/plugins.hpp"
 #include "harness/run/dry_run.hpp"
@@ -21,43 +22,58 @@
 namespace pairsum::harness {
 namespace {
 
+/// A factor or number of a run without a plan, with its default.
 struct level_option {
   const char *key, *standard, *what;
 };
 
-/// The factors and numbers of a run without a plan, with their defaults.
-constexpr level_option level_options[] = {
+constexpr level_option comparison_options[] = {
+    {"backend", "naive_omp,symmetric_omp", "backends, or all (pairsum list)"},
+    {"M", "6,7", "hash sizes, like 6,7 or 5..9: the grid folds to 2^M cells an axis"},
+    {"threads", "all", "numbers of threads; all: 1, 2, 4, ... all cores; cores: all cores"},
+    {"grid", "hashed_grid", "grids; those that take no M are measured once"},
+    {"precision", "double", "working precisions"},
+    {"isa", "default", "scalar, best, sets, all; default: best for tiles, scalar for others"},
+    {"block", "auto", "of backends with blocks of cells: auto, slab:4, pencil:4, brick:4"},
+    {"granularity", "default", "of loops: dynamic:32, static:0, guided:8 (OpenMP); auto:32 (oneTBB)"},
+};
+constexpr level_option case_options[] = {
     {"case", "dam_break", "initial condition (pairsum list)"},
-    {"dx", "0.02", "particle spacing in m, a list; 0.00594 is the talk's 2,014,966 particles"},
-    {"state", "rest", "rest, perturbed, or both"},
-    {"backend", "naive_omp,symmetric_omp", "backends, a list, or all (pairsum list)"},
-    {"M", "6,7", "hash sizes, like 6,7 or 5..9: the grid is folded to 2^M cells an axis"},
-    {"threads", "all", "numbers of threads; all: 1, 2, 4, ... and every core; cores: every core alone"},
-    {"granularity", "default",
-     "how loops are shared out: dynamic:32, static:0, guided:8 (OpenMP), auto:32, simple:8 (oneTBB)"},
+    {"dx", "0.02", "particle spacings in m; 0.00594: the talk's 2,014,966 particles"},
+    {"state", "rest", "rest, perturbed"},
     {"dim", "3", "dimension"},
-    {"H", "0", "support radius in m (0: 2 dx)"},
-    {"precision", "double", "working precisions, a list"},
-    {"interaction", "ferrari09", "pair interactions, a list"},
-    {"smoothing", "wendland_c2", "smoothing kernels, a list"},
-    {"integrator", "euler", "time stepping, a list"},
+    {"H", "0", "support radius in m; 0: 2 dx"},
+    {"interaction", "ferrari09", "pair interactions"},
+    {"smoothing", "wendland_c2", "smoothing kernels"},
+    {"integrator", "euler", "time stepping"},
     {"dt", "1e-5", "time step in s"},
-    {"grid", "hashed_grid", "grids, a list; those that take no M are measured once"},
-    {"isa", "default", "scalar, best, instruction sets, a list; default: best for tiles, scalar for others; all"},
-    {"block", "auto", "blocks of backends that have some, a list: auto, slab:4, pencil:4, brick:4 (4 cells wide)"},
-    {"order", "lattice", "orders of memory at the start, a list: lattice, shuffled, morton"},
-    {"outside", "error", "particles outside Omega: error or drop"},
+    {"order", "lattice", "order of particles in memory: lattice, shuffled, morton"},
+    {"outside", "error", "particles outside Omega: error, drop"},
+    {"seed", "1", "of perturbation, random places and order of measuring"},
+};
+constexpr level_option round_options[] = {
     {"steps", "5", "time steps per repetition"},
     {"repetitions", "1", "how often a round measures each point"},
-    {"seed", "1", "of the perturbation, of random places and of the order of measuring"},
+};
+
+struct option_group {
+  const char* name;
+  std::span<const level_option> options;
+};
+constexpr const char* round_group = "How often";
+constexpr option_group level_groups[] = {
+    {"What is compared, without a plan (lists)", comparison_options},
+    {"The case, without a plan", case_options},
+    {round_group, round_options},
 };
 
 constexpr int rounds_of_interval = 6;  ///< fewer give no interval of 95 % for a median
 
 struct run_options {
   std::string plan, profile, study = "run", out, results = "results", binding = "cores_first";
+  std::string again;  ///< the words that were given
   std::map<std::string, std::string> levels;
-  std::vector<std::string> programs;
+  std::vector<std::string> programs, only;
   int rounds = 6;
   double budget_s = 0, half_width = 0;
   bool fresh = false, dry_run = false, show_plan = false, peaks = false;
@@ -93,10 +109,12 @@ study_plan plan_from_options(const run_options& o, const given_options& given) {
 study_plan plan_of(const run_options& o, const given_options& given) {
   if (o.plan.empty()) return plan_from_options(o, given);
   if (given.at("profile")) throw error("--profile names points, and so does the plan " + o.plan);
-  for (const level_option& level : level_options)
-    if (given.at(level.key) && std::string(level.key) != "seed")
-      throw error(fmt::format("--{} is said by the plan {}; --show-plan prints it, for a plan file of your own",
-                              level.key, o.plan));
+  for (const auto& [key, text] : o.levels)
+    if (given.at(key) && key != "seed")
+      throw error(
+          fmt::format("--{0} is said by the plan {1}; --only {0}=... narrows it, --show-plan prints it, for a plan "
+                      "file of your own",
+                      key, o.plan));
   if (given.at("study")) throw error("--study is said by the plan " + o.plan);
   study_plan plan = parse_plan(load_plan(o.plan), usable_cores());
   if (given.at("seed"))
@@ -104,8 +122,23 @@ study_plan plan_of(const run_options& o, const given_options& given) {
   return plan;
 }
 
+/// The words that were given, but for where rows go.
+std::string words_of(const CLI::App& command) {
+  std::string words = "run";
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_single_name();
+    if (option->count() == 0 || name == "out" || name == "results" || name == "fresh") continue;
+    for (const std::string& value : option->results()) {
+      if (!option->get_positional()) words += " --" + name;
+      if (option->get_items_expected_max() > 0) words += " " + shell_word(value);
+    }
+  }
+  return words;
+}
+
 int start(const run_options& o, const given_options& given) {
   study_plan plan = plan_of(o, given);
+  narrow(plan, o.only, usable_cores());
   if (given.at("budget") && !(o.budget_s >= 0))
     throw error(fmt::format("budget must be at least 0, is {}", o.budget_s));
   if (given.at("budget")) plan.budget_s = o.budget_s;
@@ -140,16 +173,33 @@ int start(const run_options& o, const given_options& given) {
   if (given.at("out") && o.out.empty()) throw error("--out takes the name of a file, not \"\"");
   study_options options;
   options.binding = o.binding;
-  options.out =
-      o.out.empty() ? rows_path(o.results, plan, o.fresh || o.plan.empty(), o.binding) : std::filesystem::path(o.out);
+  options.out = o.out.empty() ? rows_path(o.results, plan, o.fresh, o.binding) : std::filesystem::path(o.out);
   if (o.fresh && std::filesystem::exists(options.out))
     throw error(fmt::format("--fresh makes a new file, but {} is there", options.out.string()));
   options.builds.push_back(in_a_process(this_program()));
   for (const std::string& program : o.programs) options.builds.push_back(in_a_process(program));
-  const int code = conduct(plan, options, all);
-  std::error_code none;
-  if (std::filesystem::exists(options.out, none)) fmt::print("rows: {}\n", options.out.string());
-  return code;
+  options.program = called_as();
+  options.again = o.again;
+  return conduct(plan, options, all);
+}
+
+/// The help's groups with one blank line between them, so that they fit on a screen.
+struct close_groups : CLI::Formatter {
+  std::string make_group(std::string group, bool positional, std::vector<const CLI::Option*> options) const override {
+    const std::string text = CLI::Formatter::make_group(std::move(group), positional, std::move(options));
+    return positional ? text + "\n" : text.substr(1);
+  }
+};
+
+/// In the help, defaults stand in the text.
+void described(CLI::Option* option, const char* group) { option->option_text(" ")->group(group); }
+
+void add_levels(CLI::App& command, run_options& o) {
+  for (const option_group& group : level_groups)
+    for (const level_option& level : group.options)
+      described(command.add_option(std::string("--") + level.key, o.levels[level.key] = level.standard,
+                                   fmt::format("{} [{}]", level.what, level.standard)),
+                group.name);
 }
 
 }  // namespace
@@ -157,46 +207,56 @@ int start(const run_options& o, const given_options& given) {
 void add_run_command(CLI::App& app, action& chosen) {
   CLI::App* const command = app.add_subcommand(
       "run",
-      "Carries out a study: a plan that comes with the program (pairsum list), a plan file, or the points that "
-      "options\n"
-      "name. Every round is a fresh process with pinned threads, its points interleaved in a seeded order; every step "
-      "is\n"
-      "verified before its time is written. A study that was cut goes on where it was when it is started again.");
+      "Carries out a study: a plan (pairsum list), a plan file, or the points that options name. Every\n"
+      "round is a fresh process with pinned threads; every step is verified before its time counts.\n"
+      "A study that was cut goes on where it was when the same command is given again.");
   const auto o = std::make_shared<run_options>();
-  command->add_option("plan", o->plan, "name of a plan, or a .json file; without: the options below");
-  for (const level_option& level : level_options)
-    command->add_option(std::string("--") + level.key, o->levels[level.key] = level.standard, level.what)
-        ->capture_default_str();
-  command->add_option("--profile", o->profile,
-                      "file of pairsum tune --save: its case and its winner's words where no option says otherwise");
-  command->add_option("--study", o->study, "name of the study, a folder under --results")->capture_default_str();
-  command
-      ->add_option(
-          "--rounds", o->rounds,
-          "fresh processes that measure all points; intervals need at least 6, and --half-width may end before")
-      ->capture_default_str();
-  command->add_option("--half-width", o->half_width,
-                      "stop a part when every interval's half-width is below this share of its median (0: never)");
-  command->add_option("--budget", o->budget_s, "seconds for everything (0: no limit)");
-  command->add_option("--binding", o->binding, "cores_first: pins threads, one on every core first; none")
-      ->capture_default_str();
-  command->add_option("--program", o->programs, "another build of this program, for plans that compare builds");
-  command->add_flag("--peaks", o->peaks, "measure the machine's bandwidth and peak first (plans say so themselves)");
-  command->add_flag("--dry-run", o->dry_run, "print the design and about how long it takes; measure nothing");
-  command->add_flag("--show-plan", o->show_plan, "print the plan as JSON; measure nothing");
-  command->add_flag("--fresh", o->fresh, "start over into a new file instead of resuming");
-  command->add_option("--out", o->out,
-                      "rows file; appended to or resumed if it exists (default: RESULTS/STUDY/HOST-UTC-GIT.jsonl)");
-  command->add_option("--results", o->results, "folder of the default rows file")->capture_default_str();
+  const auto layout = std::make_shared<close_groups>();
+  layout->column_width(20);
+  command->formatter(layout);
+  const auto text = [&](const char* name, std::string& value, const char* what, const char* group) {
+    described(command->add_option(name, value, what), group);
+  };
+  const auto flag = [&](const char* name, bool& value, const char* what, const char* group) {
+    command->add_flag(name, value, what)->group(group);
+  };
+  const char *const design = "The plan", *const files = "Files", *const machine = "Machine and build";
+  described(command->add_option("plan", o->plan, "name of a plan, or a .json file; without: the options below"),
+            design);
+  described(command->add_option("--only", o->only, "LEVEL=A,B: only these of the plan's; repeatable")
+                ->allow_extra_args(false),
+            design);
+  text("--profile", o->profile, "file of pairsum tune: its case and winner where no option says otherwise", design);
+  flag("--dry-run", o->dry_run, "print the design and about how long it takes; measure nothing", design);
+  flag("--show-plan", o->show_plan, "print the plan as JSON; measure nothing", design);
+  add_levels(*command, *o);
+  described(command->add_option("--rounds", o->rounds, "fresh processes that measure all points; intervals need 6 [6]"),
+            round_group);
+  described(command->add_option("--half-width", o->half_width,
+                                "end a part when all intervals are within this share; 0: never"),
+            round_group);
+  described(command->add_option("--budget", o->budget_s, "seconds for everything; 0: no limit"), round_group);
+  text("--out", o->out, "rows file; resumed or appended to [RESULTS/STUDY/HOST-UTC-GIT.jsonl]", files);
+  flag("--fresh", o->fresh, "start over in a new file instead of resuming", files);
+  text("--results", o->results, "folder of studies [results]", files);
+  text("--study", o->study, "name of a study without a plan, its folder there [run]", files);
+  text("--binding", o->binding, "cores_first: pins threads, one on every core first; none [cores_first]", machine);
+  flag("--peaks", o->peaks, "measure the machine's bandwidth and peak first, as plans may", machine);
+  described(command->add_option("--program", o->programs, "another build, for plans that compare builds"), machine);
   add_plugin_option(*command);
+  command->get_option("--plugin")->description("shared object with backends or interactions; repeatable");
+  described(command->get_option("--plugin"), machine);
+  command->get_help_ptr()->group(design);
   command->footer(
       "Examples:\n"
       "  pairsum run quick                 a small version of everything, about a minute\n"
       "  pairsum run talk --dry-run        what the talk's study measures, and how long it takes\n"
+      "  pairsum run field --only backend=naive_omp,tiles_omp --only threads=cores\n"
       "  pairsum run --dx 0.012 --backend naive_omp,symmetric_omp --M 6,7 --threads all");
   command->callback([&chosen, o, command] {
     given_options given;
     for (const CLI::Option* option : command->get_options()) given[option->get_single_name()] = option->count() > 0;
+    o->again = words_of(*command);
     chosen = [o, given] { return start(*o, given); };
   });
 }

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include <pairsum/core/error.hpp>
@@ -89,6 +90,20 @@ departure wait_for(pid_t child) {
 
 std::filesystem::path this_program() {
   return "/proc/self/exe";  // which stays this program, even if its file is replaced
+}
+
+std::string called_as() {
+  std::string word;
+  std::getline(std::ifstream("/proc/self/cmdline"), word, '\0');
+  return word.empty() ? "pairsum" : word;
+}
+
+std::string shell_word(const std::string& word) {
+  constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+@%-";
+  if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
 }
 
 launcher in_a_process(const std::filesystem::path& program) {

@@ -20,5 +20,10 @@ launcher in_this_process(const registry& all);
 
 /// The path of the running program.
 std::filesystem::path this_program();
+/// The word with which it was called.
+std::string called_as();
+
+/// A word as a shell reads it, quoted where it must be.
+std::string shell_word(const std::string& word);
 
 }  // namespace pairsum::harness

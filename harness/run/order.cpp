@@ -30,6 +30,7 @@ nlohmann::json order_json(const order& o) {
             {"done_s", o.where.done_s},
             {"this_s", o.where.this_s},
             {"all_s", o.where.all_s},
+            {"shown", o.where.shown},
             {"text", o.where.text}}}};
 }
 
@@ -53,7 +54,8 @@ order parse_order(const nlohmann::json& j) {
   o.binding = j.at("binding");
   o.store = j.at("store");
   const auto& where = j.at("standing");
-  o.where = {where.at("elapsed_s"), where.at("done_s"), where.at("this_s"), where.at("all_s"), where.at("text")};
+  o.where = {where.at("elapsed_s"), where.at("done_s"),        where.at("this_s"),
+             where.at("all_s"),     where.value("shown", 0.0), where.at("text")};
   return o;
 }
 

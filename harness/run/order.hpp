@@ -5,6 +5,7 @@
 
 #include "harness/plan/study.hpp"
 #include "harness/rows/reader.hpp"
+#include "harness/run/progress.hpp"
 
 namespace pairsum::harness {
 
@@ -13,12 +14,6 @@ enum class errand {
   peaks,    ///< measure bandwidth and peak for every number of threads and precision of the plan
   verify,   ///< make the references, verify every point of a part once, keep verdicts for those who come later
   measure,  ///< one round of a part
-};
-
-/// Where a study stands, for the line on the terminal; in estimated seconds of work.
-struct standing {
-  double elapsed_s = 0, done_s = 0, this_s = 0, all_s = 1;
-  std::string text;  ///< like "round 3 of parallel_rest (half-width 2.3 %, goal 2 %)"
 };
 
 /// What the process that conducts a study tells the one that carries out a step of it.

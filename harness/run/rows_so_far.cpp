@@ -58,6 +58,7 @@ void rows_so_far::take_in(const round_row& r) {
   int& replicate = replicates_[r.part];
   replicate = std::max(replicate, r.replicate);
   rounds_[r.part].push_back(r);
+  all_rounds_.push_back(r);
 }
 
 void rows_so_far::take_in_ends(std::size_t rounds_before) {
@@ -85,8 +86,7 @@ int rows_so_far::next_replicate(const std::string& part) const {
 
 std::vector<sample> rows_so_far::samples() const {
   std::set<int> wanted;
-  for (const auto& [part, rounds] : rounds_)
-    for (const round_row& r : rounds) wanted.insert(r.round);
+  for (const round_row& r : all_rounds_) wanted.insert(r.round);
   std::vector<sample> found;
   for (const sample& s : rows().samples)
     if (s.study == study_ && wanted.count(s.round) != 0) found.push_back(s);

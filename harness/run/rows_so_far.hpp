@@ -48,8 +48,11 @@ class rows_so_far {
 
   const rows_file& rows() const { return reader_.rows(); }
   const known_names& known() const { return reader_.known(); }
-  /// Samples of the finished rounds since the last end.
+  /// All finished rounds of the plan, those before the last end included, and their samples.
+  const std::vector<round_row>& all_rounds() const { return all_rounds_; }
   std::vector<sample> samples() const;
+  /// How many rounds of the study are void.
+  std::size_t voids() const { return voided_.size(); }
   /// How many samples a round of the study has, finished or not.
   std::uint64_t samples_of(int round) const;
 
@@ -79,6 +82,7 @@ class rows_so_far {
   std::set<int> voided_;
   std::map<int, round_means> means_;
   std::map<std::string, std::vector<round_row>> rounds_;
+  std::vector<round_row> all_rounds_;
   std::map<std::string, int> replicates_;  ///< the largest so far, those before the last end included
   int last_round_ = 0;
 };

@@ -15,9 +15,11 @@
 #include "harness/run/estimate.hpp"
 #include "harness/run/interrupt.hpp"
 #include "harness/run/own_environment.hpp"
+#include "harness/run/progress.hpp"
 #include "harness/run/results_table.hpp"
 #include "harness/run/study_file.hpp"
 #include "harness/run/worker.hpp"
+#include "harness/terminal/terminal.hpp"
 #include "harness/verify/shared_store.hpp"
 
 namespace pairsum::harness {
@@ -32,7 +34,8 @@ class conductor {
         hash_(plan_hash(plan)),
         environment_(own_environment(plan, options.binding)),
         file_(options.out, plan, environment_),
-        estimate_(plan, all) {
+        estimate_(plan, all),
+        line_(standing{}, plan.budget_s) {
     const std::size_t cut = file_.mend();
     if (cut > 0) say(fmt::format("{}: a last line that was cut ({} bytes) is taken away", options.out.string(), cut));
   }
@@ -53,7 +56,8 @@ class conductor {
  private:
   static constexpr int most_crashes = 2;  ///< in a row, of one round
 
-  void say(const std::string& line) const {
+  void say(const std::string& line) {
+    line_.clear();
     fmt::print("{}\n", line);
     std::fflush(stdout);
   }
@@ -76,7 +80,7 @@ class conductor {
   bool carry_out(errand what, std::size_t part, double estimated, const std::string& text) {
     for (int crashes = 0; code_ == 0;) {
       const std::size_t store_end = store_.end();
-      const departure end = options_.builds.front()(order_for(what, part, estimated, text));
+      const departure end = launch(0, order_for(what, part, estimated, text));
       if (went_well(end)) {
         done_s_ += estimated;
         return true;
@@ -86,6 +90,16 @@ class conductor {
       if (code_ == 0) give_up_after(++crashes, text);
     }
     return false;
+  }
+
+  /// Has a build carry an order out; the line on the terminal goes on where that leaves it.
+  departure launch(std::size_t build, const order& o) {
+    line_.begin(o.where);
+    line_.show(o.where.done_s, o.where.text);
+    const departure end = options_.builds[build](o);
+    line_.take_over();
+    shown_ = line_.share(o.where.done_s + o.where.this_s);
+    return end;
   }
 
   /// Sets the code with which the study ends, if it ends with this departure: a process that was killed is started
@@ -122,7 +136,8 @@ class conductor {
     o.known = so_far().known();
     o.binding = options_.binding;
     o.store = store_.descriptor();
-    o.where = {since_start_.seconds(), done_s_, estimated, std::max(estimate_.all_s(), done_s_ + estimated), text};
+    o.where = {
+        since_start_.seconds(), done_s_, estimated, std::max(estimate_.all_s(), done_s_ + estimated), shown_, text};
     return o;
   }
 
@@ -192,10 +207,13 @@ class conductor {
     stopwatch clock;
     order o = order_for(errand::measure, k, estimate_.round_s(k), so_far().standing(part));
     o.round = round;
+    o.where.this_s /= static_cast<double>(options_.builds.size());
     const std::size_t store_end = store_.end();
     std::uint64_t rows = 0;
     for (const std::size_t build : shuffled_order(options_.builds.size(), part.request.seed, round, 0)) {
-      const departure end = options_.builds[build](o);
+      const departure end = launch(build, o);
+      o.where.done_s += o.where.this_s;
+      o.where.shown = shown_;
       workers_s += end.cpu_s;
       if (!went_well(end)) {
         store_.truncate(store_end);
@@ -238,18 +256,39 @@ class conductor {
     if (code_ == 0) say(fmt::format("round {} is voided and measured again: {}", round, why));
   }
 
+  /// The words that go on with this file.
+  std::string again() const { return fmt::format("{} --out {}", options_.again, shell_word(options_.out)); }
+
+  void say_next(const std::string& what, const std::string& words) {
+    say(fmt::format("rows: {}\n{}:\n  {} {}", options_.out.string(), what, shell_word(options_.program), words));
+  }
+
+  void warn_of_disturbance() {
+    const std::string text = disturbance_text(so_far().all_rounds(), so_far().voids());
+    if (!text.empty()) say(coloured(tone::doubtful, "warning", has_colours(stdout)) + ": " + text);
+  }
+
   int ended() {
+    line_.clear();
     const std::vector<sample> samples = so_far().samples();
-    if (!samples.empty()) fmt::print("{}", results_table(samples));
-    if (code_ == 130)
-      say(fmt::format("interrupted; {} finished rounds are kept: started again with --out {}, the study goes on there",
-                      so_far().finished(), options_.out.string()));
-    if (code_ != 0) return code_;
+    const auto found = rank(
+        samples, plan_.builds > 1 ? build_words(so_far().rows().environments) : std::map<std::string, std::string>());
+    if (!samples.empty()) fmt::print("{}", results_table(found, has_colours(stdout)));
+    warn_of_disturbance();
+    if (code_ == 130) say(fmt::format("interrupted; {} finished rounds are kept", so_far().finished()));
+    if (code_ != 0) {
+      if (so_far().open()) say_next("to go on", again());
+      return code_;
+    }
     const std::string reason = left_out_        ? "the budget ended before every part was measured"
                                : cut_by_budget_ ? "the budget ended before every part had its rounds"
                                                 : "every part has its rounds";
     if (left_out_ || cut_by_budget_) say(fmt::format("{} ({:.0f} s)", reason, plan_.budget_s));
     file_.write(end_row{plan_.study, utc_now(), hash_, reason});
+    if (has_intervals(found))
+      say_next("tables, figures and a page", fmt::format("report {}", shell_word(options_.out)));
+    else
+      say_next("more rounds, since 6 give an interval", again());
     const auto failed = [&](const sample& s) { return s.error && !must_fail(plan_, s.point.backend); };
     return std::ranges::any_of(samples, failed) ? 1 : 0;
   }
@@ -263,7 +302,8 @@ class conductor {
   shared_store store_;
   estimate estimate_;
   stopwatch since_start_;
-  double done_s_ = 0;
+  progress line_;
+  double done_s_ = 0, shown_ = 0;  ///< estimated work that is done, and the share that is shown of it
   int code_ = 0;
   bool left_out_ = false, cut_by_budget_ = false;
 };

@@ -21,7 +21,7 @@
 #include "harness/run/describe_backend.hpp"
 #include "harness/run/interrupt.hpp"
 #include "harness/run/progress.hpp"
-#include "harness/run/results_table.hpp"
+#include "harness/run/ranking.hpp"
 #include "harness/run/world.hpp"
 #include "harness/self_test/self_test.hpp"
 
@@ -34,7 +34,9 @@ std::uint64_t largest_cache(const environment_row& e) {
   return largest;
 }
 
-std::string label(const point& p) { return fmt::format("{} dx={} {} {}", place_words(p), p.dx, p.state, p.isa); }
+std::string label(const point& p) { return fmt::format("{} {} {}", place_words(p), p.isa, p.precision); }
+/// The same with the problem, for lines that stay.
+std::string whole_label(const point& p) { return fmt::format("{} ({})", label(p), problem_words(p)); }
 
 /// A part's points with the worlds they live in.
 class measured_part {
@@ -77,7 +79,7 @@ class errand_run {
         environment_(describe_environment(o.plan.study, binding_.description(), hardware_.description())),
         store_(o.store >= 0 ? std::make_unique<shared_store>(o.store) : nullptr),
         with_{all, binding_, hardware_, store_.get(), environment_.environment, largest_cache(environment_)},
-        progress_(o.where.all_s, o.plan.budget_s, o.where.elapsed_s) {}
+        progress_(o.where, o.plan.budget_s) {}
 
   int verify() {
     measured_part part(order_, with_);
@@ -94,13 +96,11 @@ class errand_run {
       show("verifying " + label(p.what));
       const world::result r = part.world_of(p).measure(p.what);
       if (r.interrupted) return 130;
-      if (!r.error.empty())
-        note(fmt::format("{} ({}) FAILED its verification: {}", label(p.what), words_of(p.what), r.error));
+      if (!r.error.empty()) note(fmt::format("{} FAILED its verification: {}", whole_label(p.what), r.error));
       std::uint64_t lost = 0;
       for (const step_result& step : r.steps) lost += step.lost;
       if (lost > 0)
-        note(fmt::format("{} ({}): {} particles left Omega and are no longer summed", label(p.what), words_of(p.what),
-                         lost));
+        note(fmt::format("{}: {} particles left Omega and are no longer summed", whole_label(p.what), lost));
       advance(unit);
     }
     for (const auto& w : part.worlds()) w->remember();
@@ -137,6 +137,9 @@ class errand_run {
     for (const auto& w : part.worlds()) w->remember();  // verdicts on bits that were new
     return failed_ ? 1 : 0;
   }
+
+  /// The line on the terminal stays, for the next process.
+  void hand_over() { progress_.hand_over(); }
 
   int peaks() {
     auto wanted = peaks_of(order_.plan, with_.all);
@@ -282,14 +285,9 @@ int carry_out(const order& o, const registry& all) {
   // point's threads were, which matters with several NUMA nodes.
   if (numa_nodes() == 1) keep_freed_memory();
   errand_run run(o, all);
-  switch (o.what) {
-    case errand::peaks:
-      return run.peaks();
-    case errand::verify:
-      return run.verify();
-    default:
-      return run.measure();
-  }
+  const int code = o.what == errand::peaks ? run.peaks() : o.what == errand::verify ? run.verify() : run.measure();
+  run.hand_over();
+  return code;
 }
 
 bool must_fail(const study_plan& plan, const std::string& backend) {

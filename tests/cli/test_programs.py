@@ -88,7 +88,7 @@ def test_rows_of_all_backends_obey_the_schema(pairsum, backends, tmp_path):
     done = pairsum("run", *SMALL[:6], "--backend", ",".join(backends), "--state", "rest,perturbed", "--steps", 2, "--rounds", 2,
                    "--repetitions", 2, "--out", out)
     assert done.returncode == 0, done.stderr
-    assert done.stdout.splitlines()[-1] == f"rows: {out}"
+    assert done.stdout.splitlines()[-3] == f"rows: {out}"
     assert done.stderr == ""  # no progress line where nobody looks
     assert schema_errors(out) == []
     samples = [json.loads(line) for line in out.read_text().splitlines() if '"sample"' in line]
@@ -101,7 +101,7 @@ def test_rows_of_all_backends_obey_the_schema(pairsum, backends, tmp_path):
 def test_default_rows_path_names_study_host_time_and_revision(pairsum, tmp_path):
     done = pairsum("run", *SMALL, "--study", "mine", "--results", tmp_path / "results")
     (path,) = (tmp_path / "results" / "mine").iterdir()
-    assert done.stdout.splitlines()[-1] == f"rows: {path}"
+    assert done.stdout.splitlines()[-3] == f"rows: {path}"
     assert path.name.startswith(os.uname().nodename + "-2") and path.suffix == ".jsonl"
 
 
@@ -171,7 +171,7 @@ def test_grids_without_m_are_measured_once_and_have_no_m(pairsum, listed, tmp_pa
         [(grid, m) for grid in listed["grids_with_M"] for m in (3, 4)] + [(grid, 0) for grid in without])
     assert all((p["M"] is None) == (p["grid"] in without) and p["block"] == "none" for p in points)
     for grid in without:
-        assert re.search(rf"^symmetric_omp/{grid} .* rest +- +1 ", done.stdout, re.M), done.stdout
+        assert re.search(rf"^symmetric_omp +{grid} +- +\d", done.stdout, re.M), done.stdout
 
 
 def test_vector_units_are_a_factor_of_every_backend(pairsum, listed, tmp_path):
@@ -212,8 +212,8 @@ def test_lists_of_words_are_factors(pairsum, listed, tmp_path):
     assert len(points) == len({json.dumps(p, sort_keys=True) for p in points}) == 2 * 3 * 2 * len(formulas)
     assert {p["smoothing"] for p in points if p["interaction"] == "count"} == {"none"}
     assert schema_errors(out) == []
-    for words in ["random_clustered 3D, H = 2 dx", f"double, {listed['interactions'][-1]}", "rk4, order shuffled"]:
-        assert words in done.stdout
+    headings = re.findall(r"^random_clustered 3D, dx 0.2, rest, H = 2 dx, (\w+), \w+, \w+, order \w+: \d+ fluid", done.stdout, re.M)
+    assert 1 < len(headings) <= 10 and re.search(r"^\d+ more in the report$", done.stdout, re.M)
     assert pairsum("report", "--tables", out).returncode == 0
 
 
@@ -237,7 +237,7 @@ def test_interrupt_leaves_valid_rows(pairsum, tmp_path):
     process.send_signal(signal.SIGINT)
     printed, _ = process.communicate(timeout=30)
     assert process.returncode == 130
-    assert "ns/pair" in printed
+    assert "ns/pair" in printed and "to go on:" in printed
     assert schema_errors(out) == []
     assert pairsum("report", "--tables", out).returncode == 0
 

@@ -1,13 +1,7 @@
 """Plans, and what is said about them before and while they run."""
 
 import json
-import os
-import pty
 import re
-import select
-import signal
-import subprocess
-import time
 
 import pytest
 from conftest import BIN, PLAN, SMALL, refused
@@ -245,25 +239,3 @@ def test_progress_is_quiet_where_nobody_looks(pairsum, plan):
     done = pairsum("run", plan(), "--rounds", "2", "--out", "rows.jsonl")
     assert done.returncode == 0 and done.stderr == ""
     assert "\r" not in done.stdout and "\x1b" not in done.stdout and "ETA" not in done.stdout
-
-
-def test_progress_on_a_terminal(tmp_path):
-    ours, theirs = pty.openpty()
-    process = subprocess.Popen([BIN / "pairsum", "run", "--dx", "0.05", "--M", "5", "--threads", "1", "--rounds", "1000", "--out",
-                                "rows.jsonl"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=theirs)
-    os.close(theirs)
-    seen, until = b"", time.monotonic() + 30
-    while not re.search(rb"\[[#.]{24}\] +\d+ %  ETA \d+:\d\d  run round \d+/1000", seen) and time.monotonic() < until:
-        if select.select([ours], [], [], 0.1)[0]:
-            seen += os.read(ours, 65536)
-    process.send_signal(signal.SIGTERM)
-    while process.poll() is None and time.monotonic() < until + 10:  # it shall not wait for a reader
-        if select.select([ours], [], [], 0.1)[0]:
-            try:
-                seen += os.read(ours, 65536)
-            except OSError:
-                break
-    process.communicate(timeout=10)
-    os.close(ours)
-    assert process.returncode == 130
-    assert re.search(rb"\[[#.]{24}\] +\d+ %  ETA \d+:\d\d  run round \d+/1000", seen), seen[-400:]

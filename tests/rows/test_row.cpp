@@ -8,7 +8,6 @@
 #include "harness/rows/point_words.hpp"
 #include "harness/rows/row.hpp"
 #include "harness/rows/threads_worked.hpp"
-#include "harness/rows/variant_names.hpp"
 #include "tests/rows/example_rows.hpp"
 #include "tests/rows/scratch.hpp"
 
@@ -175,25 +174,15 @@ TEST(row, a_grid_without_M_has_null_and_no_zero) {
 
 TEST(row, a_point_in_words) {
   point p = example::measured().point;
-  EXPECT_EQ(m_word(p.M), "6");
   EXPECT_EQ(place_words(p), "symmetric_omp M=6 threads=2");
-  EXPECT_EQ(choice_words(p, p.backend), "symmetric_omp with M = 6 and 2 threads");
   p.backend = "tiles_omp";
   p.grid = "compact_grid";
   p.M = 0;
   p.block = "auto";
-  EXPECT_EQ(m_word(p.M), "-");
   EXPECT_EQ(place_words(p), "tiles_omp compact_grid threads=2");
-  EXPECT_EQ(choice_words(p, p.backend), "tiles_omp on compact_grid and 2 threads");
-  variant_names names;
-  names.add(p);
-  EXPECT_EQ(names(p), "tiles_omp/compact_grid");
   p.block = "slab:4";
   p.threads = 1;
   EXPECT_EQ(place_words(p), "tiles_omp compact_grid slab:4 threads=1");
-  names.add(p);
-  EXPECT_EQ(names(p), "tiles_omp/compact_grid slab:4");
-  EXPECT_EQ(choice_words(p, names.without_grid(p)), "tiles_omp slab:4 on compact_grid and 1 thread");
 }
 
 TEST(row, every_key_of_another_type_is_named) {

@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "harness/run/progress.hpp"
+#include "harness/terminal/terminal.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+TEST(terminal, a_file_has_no_colours_and_the_usual_width) {
+  std::FILE* const file = std::tmpfile();
+  EXPECT_FALSE(is_terminal(file));
+  EXPECT_FALSE(has_colours(file));
+  EXPECT_EQ(columns_of(file), 80);
+  std::fclose(file);
+}
+
+TEST(terminal, cuts_characters_and_not_bytes) {
+  EXPECT_EQ(cut_to("abc", 2), "ab");
+  EXPECT_EQ(cut_to("abc", 9), "abc");
+  EXPECT_EQ(cut_to("\u00b1\u00b1x", 1), "\u00b1");
+  EXPECT_EQ(cut_to("abc", 0), "");
+  EXPECT_EQ(columns_in("\u00b1x"), 2u);
+}
+
+TEST(terminal, colours_are_there_or_not) {
+  EXPECT_EQ(coloured(tone::good, "x", false), "x");
+  EXPECT_EQ(coloured(tone::good, "x", true), "\x1b[32mx\x1b[0m");
+}
+
+TEST(progress, never_goes_back_though_estimates_change) {
+  standing at{.elapsed_s = 5, .done_s = 0, .this_s = 10, .all_s = 100, .text = ""};
+  progress line(at);
+  EXPECT_DOUBLE_EQ(line.share(0), 0);
+  EXPECT_DOUBLE_EQ(line.share(10), 0.1);
+  at = {.elapsed_s = 15, .done_s = 10, .this_s = 90, .all_s = 1000, .shown = 0.1, .text = ""};  // ten times the work
+  line.begin(at);
+  EXPECT_DOUBLE_EQ(line.share(10), 0.1);
+  EXPECT_GT(line.share(11), 0.1);
+  EXPECT_DOUBLE_EQ(line.share(1000), 1);
+  at = {.elapsed_s = 95, .done_s = 100, .this_s = 5, .all_s = 50, .shown = 0.2, .text = ""};  // less than was done
+  line.begin(at);
+  EXPECT_DOUBLE_EQ(line.share(105), 1);
+}
+
+}  // namespace
+}  // namespace pairsum::harness
