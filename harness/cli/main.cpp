@@ -27,6 +27,26 @@ constexpr const char* examples =
     "  pairsum history results                               did anything get slower from revision to revision\n"
     "Exit codes: 0 fine, 1 a verification failed or something got slower, 2 bad input, 130 interrupted.";
 
+/// The command that was called, "pairsum run".
+std::string called(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  return commands.empty() ? app.get_name() : app.get_name() + " " + commands.front()->get_name();
+}
+
+/// The error for a word that no option and no argument takes: names the option that was meant.
+pairsum::error unexpected(const CLI::App& app, const std::string& word) {
+  const auto commands = app.get_subcommands();
+  std::vector<std::string> valid;
+  for (const CLI::Option* o : (commands.empty() ? &app : commands.front())->get_options())
+    for (const std::string& name : o->get_lnames()) valid.push_back("--" + name);
+  const std::string name = word.substr(0, word.find('='));
+  const std::string bare = name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  const std::string what = word.starts_with('-') ? "unknown option " + name + " of " + called(app)
+                                                 : called(app) + " does not take \"" + word + "\"";
+  return pairsum::error(
+      fmt::format("{};{} {} --help lists its options", what, pairsum::hint_for("--" + bare, valid), called(app)));
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app(about, "pairsum");
   app.footer(examples);
@@ -50,7 +70,8 @@ int run_program(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
-    throw pairsum::error(std::string(e.what()) + " (see pairsum --help)");
+    if (const auto words = app.remaining(true); !words.empty()) throw unexpected(app, words.front());
+    throw pairsum::error(fmt::format("{} (see {} --help)", e.what(), called(app)));
   }
   pairsum::harness::load_named_plugins();
   return chosen();

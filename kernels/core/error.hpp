@@ -8,4 +8,9 @@ struct error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A word that is known, but that this build or this machine does not have.
+struct unavailable : error {
+  using error::error;
+};
+
 }  // namespace pairsum

@@ -57,7 +57,7 @@ void check_isa(std::string_view isa) {
     if (k.name != isa || (k.built && k.runs)) continue;
     const std::string why =
         k.built ? "does not run on this machine" : "is not in this build; configure with -DPAIRSUM_ISAS=all";
-    throw error("isa " + std::string(isa) + " " + why + " (valid: " + join(valid) + ")");
+    throw unavailable("isa " + std::string(isa) + " " + why + " (valid: " + join(valid) + ")");
   }
   check_word("isa", std::string(isa), valid);
 }

@@ -3,8 +3,10 @@
 #include <charconv>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <pairsum/core/error.hpp>
+#include <pairsum/core/nearest.hpp>
 
 namespace pairsum {
 
@@ -35,10 +37,12 @@ std::string join(const Names& names) {
   return all;
 }
 
-/// The error for a word that names nothing: lists the words that do.
+/// The error for a word that names nothing: the nearest of those that do, and all of them.
 template <class Names>
 error unknown_name(std::string_view what, std::string_view word, const Names& valid) {
-  return error("unknown " + std::string(what) + " \"" + std::string(word) + "\"; valid: " + join(valid));
+  return error("unknown " + std::string(what) + " \"" + std::string(word) + "\";" +
+               hint_for(word, std::vector<std::string>(std::ranges::begin(valid), std::ranges::end(valid))) +
+               " valid: " + join(valid));
 }
 
 /// Throws unknown_name unless `word` is one of `valid`.

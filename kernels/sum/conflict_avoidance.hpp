@@ -19,4 +19,16 @@ inline constexpr std::string_view name_of(conflict_avoidance c) {
   return names[static_cast<unsigned>(c)];
 }
 
+/// The same in a phrase for people.
+inline constexpr std::string_view meaning_of(conflict_avoidance c) {
+  constexpr std::string_view phrases[]{"one thread",
+                                       "a thread writes its own particles alone; pairs with others' are computed twice",
+                                       "what runs at a time shares no particle; barriers between colours",
+                                       "every addition is atomic",
+                                       "threads or passes add to copies of the rates, which are joined",
+                                       "particles or cells are locked while they are added to",
+                                       "tasks that would share particles wait for each other"};
+  return phrases[static_cast<unsigned>(c)];
+}
+
 }  // namespace pairsum

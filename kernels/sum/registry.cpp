@@ -85,17 +85,33 @@ std::vector<combination> registry::formulas() const {
 
 template <class Words>
 void registry::check_built(const std::string& kind, const std::string& word, const Words& built) const {
-  for (const missing_word& m : missing_)
-    if (m.kind == kind && m.word == word)
-      throw error(std::string(kind)
-                      .append(" ")
-                      .append(word)
-                      .append(" is not in this build; configure with -D")
-                      .append(m.option)
-                      .append("=all (built: ")
-                      .append(join(built))
-                      .append(")"));
-  check_word(kind, word, built);
+  if (std::ranges::find(built, word) != built.end()) return;
+  std::vector<std::string> missing;
+  for (const missing_word& m : missing_) {
+    if (m.kind != kind) continue;
+    if (m.word == word)
+      throw unavailable(std::string(kind)
+                            .append(" ")
+                            .append(word)
+                            .append(" is not in this build; configure with -D")
+                            .append(m.option)
+                            .append("=all (built: ")
+                            .append(join(built))
+                            .append(")"));
+    missing.push_back(m.word);
+  }
+  // One that is not built is a better guess than a built one that is farther off.
+  if (const std::string hint = hint_for(word, missing); !hint.empty() && hint_for(word, built).empty())
+    throw error(std::string("unknown ")
+                    .append(kind)
+                    .append(" \"")
+                    .append(word)
+                    .append("\";")
+                    .append(hint)
+                    .append(" (not in this build; built: ")
+                    .append(join(built))
+                    .append(")"));
+  throw unknown_name(kind, word, built);
 }
 
 void registry::check_interaction(const std::string& word) const { check_built("interaction", word, interactions()); }
@@ -116,7 +132,7 @@ const backend_entry& registry::find_backend(const std::string& name) const {
   std::vector<std::string_view> valid;
   for (const backend_entry& b : backends_) {
     if (b.traits.name == name) {
-      if (!b.unavailable.empty()) throw error("backend " + name + " is unavailable: " + b.unavailable);
+      if (!b.unavailable.empty()) throw unavailable("backend " + name + " is unavailable: " + b.unavailable);
       return b;
     }
     valid.push_back(b.traits.name);
