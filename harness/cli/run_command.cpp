@@ -156,11 +156,11 @@ int start(const run_options& o, const given_options& given) {
     return 0;
   }
   const registry& all = registry_of(plan);
-  check_plan(plan, all);
   if (o.dry_run) {
     fmt::print("{}", dry_run(plan, all));
     return 0;
   }
+  check_plan(plan, all);
   if (plan.builds != static_cast<int>(o.programs.size()) + 1)
     throw error(plan.builds == 1
                     ? std::string("--program names another build, which only a plan that compares builds takes")

@@ -139,10 +139,10 @@ json levels_json(const run_request& r) {
   return j;
 }
 
-std::string level_words() {
-  std::string text;
-  for (const auto& [key, level] : levels()) text += (text.empty() ? "" : ", ") + key;
-  return text;
+std::vector<std::string> level_words() {
+  std::vector<std::string> words;
+  for (const auto& [key, level] : levels()) words.push_back(key);
+  return words;
 }
 
 }  // namespace pairsum::harness

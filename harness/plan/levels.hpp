@@ -1,6 +1,7 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "harness/plan/plan.hpp"
 
@@ -17,7 +18,7 @@ bool read_level(run_request& r, const std::string& key, const nlohmann::json& va
 /// The same levels as JSON.
 nlohmann::json levels_json(const run_request& r);
 
-/// The keys, like "backend, case, dim".
-std::string level_words();
+/// The keys.
+std::vector<std::string> level_words();
 
 }  // namespace pairsum::harness

@@ -54,13 +54,12 @@ std::vector<json> wanted_values(const study_plan& plan, const std::string& key, 
 
 void narrow(study_plan& plan, const std::vector<std::string>& only, int cores) {
   std::map<std::string, std::vector<json>> wanted;
-  const json levels = levels_json(run_request{});
   for (const std::string& text : only) {
     const std::size_t equals = text.find('=');
     if (equals == text.npos)
       throw error(fmt::format("--only takes a level with its values, like backend=naive, not \"{}\"", text));
     const std::string key = text.substr(0, equals);
-    if (!levels.contains(key)) throw error(fmt::format("--only: unknown level \"{}\"; valid: {}", key, level_words()));
+    check_word("level of --only", key, level_words());
     add_new(wanted[key], wanted_values(plan, key, text.substr(equals + 1), cores));
   }
   std::vector<part_plan> kept;

@@ -7,7 +7,9 @@
 #include <set>
 
 #include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
 #include "harness/plan/levels.hpp"
+#include "harness/plan/variants.hpp"
 #include "harness/rows/hash_text.hpp"
 
 namespace pairsum::harness {
@@ -17,6 +19,17 @@ using nlohmann::json;
 
 [[noreturn]] void wrong(const std::string& key, const std::string& right, const json& found) {
   throw error(fmt::format("the plan's \"{}\" should be {}, is {}", key, right, found.dump()));
+}
+
+error unknown_key(const std::string& key, const std::vector<std::string>& keys) {
+  return error(fmt::format("the plan's key \"{}\" is not known;{} there are {}", key, hint_for(key, keys), join(keys)));
+}
+
+/// The keys of a part: its own, and levels.
+std::vector<std::string> part_keys() {
+  std::vector<std::string> keys{"name", "reason", "rounds", "half_width", "share"};
+  for (const std::string& level : level_words()) keys.push_back(level);
+  return keys;
 }
 
 double number_of(const json& value, const std::string& key, double least) {
@@ -62,7 +75,7 @@ void read_key(part_plan& part, const std::string& key, const json& value, int co
   else if (key == "share")
     part.share = number_of(value, key, 1e-9);
   else if (!read_level(part.request, key, value, cores))
-    throw error(fmt::format("the plan's key \"{}\" is not known; levels are {}", key, level_words()));
+    throw unknown_key(key, part_keys());
 }
 
 part_plan read_part(const json& value, part_plan part, int cores) {
@@ -108,10 +121,8 @@ study_plan parse_plan(const json& j, int cores) {
     else if (key == "parts")
       parts = value;
     else if (key != "defaults")
-      throw error(
-          fmt::format("the plan's key \"{}\" is not known; there are schema, study, title, budget_s, seed, peaks, "
-                      "self_test, builds, defaults and parts",
-                      key));
+      throw unknown_key(
+          key, {"schema", "study", "title", "budget_s", "seed", "peaks", "self_test", "builds", "defaults", "parts"});
   }
   if (plan.study.empty()) wrong("study", "the name of the study", json(plan.study));
   if (!parts.is_array() || parts.empty()) wrong("parts", "a list of at least one part", parts);
@@ -152,6 +163,16 @@ std::string plan_hash(const study_plan& plan) {
 
 void check_plan(const study_plan& plan, const registry& all) {
   for (const part_plan& p : plan.parts) check_request(p.request, all);
+}
+
+plan_here measurable(study_plan plan, const registry& all) {
+  plan_here here{std::move(plan), {}};
+  std::erase_if(here.plan.parts, [&](part_plan& p) {
+    if (auto why = leave_out_unavailable(p.request, all); !why.empty()) here.left_out[p.request.part] = std::move(why);
+    return p.request.backends.empty();
+  });
+  check_plan(here.plan, all);
+  return here;
 }
 
 std::set<std::pair<int, std::string>> peaks_of(const study_plan& plan, const registry& all) {

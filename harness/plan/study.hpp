@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <set>
 #include <string>
@@ -47,6 +48,14 @@ std::string plan_hash(const study_plan& plan);
 
 /// Throws pairsum::error for a plan that cannot be measured with these backends.
 void check_plan(const study_plan& plan, const registry& all = registry::instance());
+
+/// What of a plan can be measured with this build on this machine.
+struct plan_here {
+  study_plan plan;  ///< without what cannot, and parts of which nothing is left
+  std::map<std::string, std::vector<std::string>> left_out;  ///< by part: why, a line each
+};
+/// Throws pairsum::error for what no build can measure.
+plan_here measurable(study_plan plan, const registry& all = registry::instance());
 
 /// The numbers of threads and precisions of a plan's points: for these the machine's peaks are measured.
 std::set<std::pair<int, std::string>> peaks_of(const study_plan& plan, const registry& all);

@@ -88,6 +88,27 @@ std::string reason_of(const run_request& r, const registry& all) {
   return why.empty() ? "" : ": " + why;
 }
 
+/// The words that decide what must have been built.
+constexpr std::vector<std::string> run_request::*built_words[]{&run_request::precisions, &run_request::interactions,
+                                                               &run_request::smoothings};
+
+void check_any_built(const run_request& one, const registry& all) {
+  if (is_any_built(one, all)) return;
+  throw unavailable(fmt::format("none of the backends {} is built for {}{} in {}D and precision {}{}",
+                                join(one.backends), join(one.interactions),
+                                has_smoothed(one, all) ? " with " + join(one.smoothings) : std::string(), one.dim,
+                                join(one.precisions), reason_of(one, all)));
+}
+
+void check_backend_built(const run_request& r, const std::string& backend, const registry& all) {
+  if (r.backends.size() == all.backends().size()) return;  // nobody asked for each by name
+  run_request one = r;
+  one.backends = {backend};
+  if (!is_any_built(one, all))
+    throw unavailable(
+        fmt::format("backend {} cannot be had with isa {}{}", backend, join(r.isas), reason_of(one, all)));
+}
+
 }  // namespace
 
 std::vector<cell_grid> grids_of(const run_request& r) {
@@ -125,23 +146,42 @@ void leave_out_unbuilt(run_request& r, std::vector<std::string> run_request::*wo
   if (!built.empty()) r.*words = built;
 }
 
-void check_built(const run_request& r, const registry& all) {
-  for (const auto words : {&run_request::precisions, &run_request::interactions, &run_request::smoothings})
-    for (const std::string& word : r.*words) {
-      const run_request one = with_one(r, words, word, all);
-      if (!is_any_built(one, all))
-        throw error(fmt::format("none of the backends {} is built for {}{} in {}D and precision {}{}", join(r.backends),
-                                join(one.interactions),
-                                has_smoothed(one, all) ? " with " + join(one.smoothings) : std::string(), r.dim,
-                                join(one.precisions), reason_of(one, all)));
+std::vector<std::string> leave_out_unavailable(run_request& r, const registry& all) {
+  std::vector<std::string> why;
+  const auto is_here = [&](const auto& check) {
+    try {
+      check();
+      return true;
+    } catch (const unavailable& e) {
+      add_once(why, std::string(e.what()));
+      return false;
     }
-  if (r.backends.size() == all.backends().size()) return;  // nobody asked for each by name
-  for (const std::string& backend : r.backends) {
-    run_request one = r;
-    one.backends = {backend};
-    if (!is_any_built(one, all))
-      throw error(fmt::format("backend {} cannot be had with isa {}{}", backend, join(r.isas), reason_of(one, all)));
-  }
+  };
+  const auto keep = [&](std::vector<std::string>& words, const auto& check) {
+    std::erase_if(words, [&](const std::string& word) { return !is_here([&] { check(word); }); });
+    return !words.empty();
+  };
+  const bool here =
+      is_here([&] { all.check_dim(r.dim); }) && keep(r.backends, [&](const std::string& b) { all.find_backend(b); }) &&
+      keep(r.precisions, [&](const std::string& p) { all.check_precision(p); }) &&
+      keep(r.interactions, [&](const std::string& i) { all.check_interaction(i); }) &&
+      (!has_smoothed(r, all) || keep(r.smoothings, [&](const std::string& k) { all.check_smoothing(k); })) &&
+      keep(r.isas, [&](const std::string& i) { i == default_isa ? void() : check_isa(i); }) &&
+      std::ranges::all_of(built_words,
+                          [&](const auto words) {
+                            return keep(r.*words, [&](const std::string& word) {
+                              check_any_built(with_one(r, words, word, all), all);
+                            });
+                          }) &&
+      keep(r.backends, [&](const std::string& b) { check_backend_built(r, b, all); });
+  if (!here) r.backends.clear();
+  return why;
+}
+
+void check_built(const run_request& r, const registry& all) {
+  for (const auto words : built_words)
+    for (const std::string& word : r.*words) check_any_built(with_one(r, words, word, all), all);
+  for (const std::string& backend : r.backends) check_backend_built(r, backend, all);
 }
 
 }  // namespace pairsum::harness

@@ -34,8 +34,12 @@ std::vector<backend_way> ways_of(const run_request& r, const point& world, const
 /// says what is wrong.
 void leave_out_unbuilt(run_request& r, std::vector<std::string> run_request::*words, const registry& all);
 
-/// Throws pairsum::error for a precision, interaction or smoothing kernel that none of the request's backends was built
-/// for with any of its others; combinations that were not built are left out.
+/// Leaves out every word that is known but that this build or this machine does not have, and returns why, a line each
+/// once. Throws pairsum::error for a word that is unknown. If nothing is left to measure, the request has no backend.
+std::vector<std::string> leave_out_unavailable(run_request& r, const registry& all);
+
+/// Throws pairsum::unavailable for a precision, interaction or smoothing kernel that none of the request's backends was
+/// built for with any of its others; combinations that were not built are left out.
 void check_built(const run_request& r, const registry& all);
 
 }  // namespace pairsum::harness

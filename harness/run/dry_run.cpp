@@ -30,32 +30,52 @@ std::string rounds_of(const part_plan& p) {
       p.half_width > 0 ? fmt::format(", until every interval is within +-{:g} %", 100 * p.half_width) : "");
 }
 
+/// The levels that nearly every plan says, and those that are not at their defaults.
+std::string levels_text(const run_request& r) {
+  const nlohmann::json standard = levels_json(run_request{}), levels = levels_json(r);
+  std::string text;
+  for (const auto& item : levels.items()) {
+    const bool always = item.key() == "backend" || item.key() == "dx" || item.key() == "M" || item.key() == "threads" ||
+                        item.key() == "state";
+    if (always || item.value() != standard.at(item.key()))
+      text += fmt::format("  {:<14}{}\n", item.key(), text_of(item.value()));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string dry_run(const study_plan& plan, const registry& all) {
-  estimate time(plan, all);
-  time.calibrate(all);
+  const plan_here here = measurable(plan, all);
+  estimate time(here.plan, all);
+  if (!here.plan.parts.empty()) time.calibrate(all);
   std::string text = fmt::format("study {}: {}\n", plan.study, plan.title);
-  if (plan.peaks)
+  if (plan.builds > 1) text += fmt::format("compares {} builds: this program and what --program names\n", plan.builds);
+  if (plan.peaks && !here.plan.parts.empty())
     text += fmt::format("\npeaks: bandwidth and multiply-adds of the machine, about {}\n", duration(time.peaks_s()));
-  const nlohmann::json standard = levels_json(run_request{});
-  for (std::size_t k = 0; k < plan.parts.size(); ++k) {
-    const part_plan& part = plan.parts[k];
-    text += fmt::format("\npart {}: {} point{}, {}; a round takes about {}, verifying it before about {}\n",
-                        part.request.part, time.points(k), time.points(k) == 1 ? "" : "s", rounds_of(part),
-                        duration(time.round_s(k)), duration(time.verify_s(k)));
-    if (!part.reason.empty()) text += "  because: " + part.reason + "\n";
-    const nlohmann::json levels = levels_json(part.request);  // items() does not keep it
-    for (const auto& item : levels.items()) {
-      const bool always = item.key() == "backend" || item.key() == "dx" || item.key() == "M" ||
-                          item.key() == "threads" || item.key() == "state";
-      if (always || item.value() != standard.at(item.key()))
-        text += fmt::format("  {:<14}{}\n", item.key(), text_of(item.value()));
-    }
-  }
+  std::size_t k = 0;  // among the parts that can be measured
   double unlimited = time.peaks_s();
-  for (std::size_t k = 0; k < plan.parts.size(); ++k)
-    unlimited += time.verify_s(k) + plan.parts[k].least_rounds * time.round_s(k);
+  for (const part_plan& part : plan.parts) {
+    const std::string& name = part.request.part;
+    const bool whole = k == here.plan.parts.size() || here.plan.parts[k].request.part != name;
+    if (whole)
+      text += fmt::format("\npart {}: nothing of it can be measured here\n", name);
+    else
+      text += fmt::format("\npart {}: {} point{}, {}; a round takes about {}, verifying it before about {}\n", name,
+                          time.points(k), time.points(k) == 1 ? "" : "s", rounds_of(part), duration(time.round_s(k)),
+                          duration(time.verify_s(k)));
+    if (!part.reason.empty()) text += "  because: " + part.reason + "\n";
+    text += levels_text(part.request);
+    if (const auto why = here.left_out.find(name); why != here.left_out.end())
+      for (const std::string& line : why->second) text += "  left out: " + line + "\n";
+    if (whole) continue;
+    unlimited += time.verify_s(k) + part.least_rounds * time.round_s(k);
+    ++k;
+  }
+  if (!here.left_out.empty())
+    text += fmt::format("\n{} of {} parts cannot be measured as they are by this build on this machine\n",
+                        here.left_out.size(), plan.parts.size());
+  if (here.plan.parts.empty()) return text;
   text += fmt::format("\nabout {} for the least rounds of every part", duration(unlimited));
   if (plan.budget_s > 0)
     text += fmt::format("; the budget is {}{}", duration(plan.budget_s),

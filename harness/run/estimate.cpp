@@ -43,8 +43,15 @@ estimate::estimate(const study_plan& plan, const registry& all) : budget_s_(plan
 }
 
 void estimate::calibrate(const registry& all) {
-  const initial_condition c = make_case("dam_break", {3, 0.03, 0, "rest", 1});
+  // Whatever formula was built, in the most dimensions; some thousands of particles.
+  const std::vector<combination> built = all.formulas();
+  const combination f = *std::ranges::find(built, all.dims().back(), &combination::dim);
+  const double dx = f.dim == 3 ? 0.03 : f.dim == 2 ? 0.004 : 0.0002;
+  const initial_condition c = make_case(f.dim == 1 ? "lattice" : "dam_break", {f.dim, dx, 0, "rest", 1});
   setup s = setup_of(c);
+  s.precision = f.precision;
+  s.interaction = f.interaction;
+  s.smoothing = f.smoothing;
   s.backend = all.backends().front().traits.name;
   const auto sum = all.make_summation(s);
   const workers w(sum->traits().threads, 1);

@@ -12,7 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-const json valid = json::parse(R"({"schema": "pairsum.plan/1", "study": "s", "defaults": {"backend": "symmetric_omp"},
+const json right_plan =
+    json::parse(R"({"schema": "pairsum.plan/1", "study": "s", "defaults": {"backend": "symmetric_omp"},
   "parts": [{"name": "a"}, {"name": "b"}]})");
 
 /// Refused in one line that says `says`.
@@ -33,20 +34,23 @@ void expect_refused(const json& plan, const std::string& says) {
 
 /// With one key changed, or added.
 void expect_refused(const char* path, const json& value, const std::string& says) {
-  json j = valid;
+  json j = right_plan;
   j[json::json_pointer(path)] = value;
   expect_refused(j, says);
 }
 
 TEST(wrong_plan, is_refused_by_the_key_that_is_wrong) {
-  EXPECT_NO_THROW(check_plan(parse_plan(valid, 2)));
+  EXPECT_NO_THROW(check_plan(parse_plan(right_plan, 2)));
   expect_refused(json::array(), "object");
   expect_refused("text", "object");
   expect_refused("/schema", "pairsum.plan/2", "\"schema\" should be \"pairsum.plan/1\"");
   expect_refused("/schema", 1, "\"schema\"");
   expect_refused("/steps", 3, "\"steps\" is not known");
   expect_refused("/defaults/step", 3, "\"step\" is not known");
-  expect_refused("/parts/0/backends", "naive", "\"backends\" is not known");
+  expect_refused("/parts/0/backends", "naive", "\"backends\" is not known; did you mean backend? there are name, ");
+  expect_refused("/defaults/half_witdh", 0.1, "did you mean half_width?");
+  expect_refused("/bugdet_s", 3, "did you mean budget_s? there are schema, ");
+  expect_refused("/colour", 3, "\"colour\" is not known; there are schema, ");
   expect_refused("/study", "", "\"study\"");
   expect_refused("/study", 3, "\"study\"");
   expect_refused("/study", "a/b", "no slash");
@@ -75,7 +79,7 @@ TEST(wrong_plan, is_refused_for_its_parts) {
   for (const json& bad : {json(-0.1), json("0.1"), json()})
     expect_refused("/parts/0/half_width", bad, "\"half_width\"");
   for (const json& bad : {json(0), json("1")}) expect_refused("/parts/0/share", bad, "\"share\"");
-  json no_parts = valid;
+  json no_parts = right_plan;
   no_parts.erase("parts");
   expect_refused(no_parts, "\"parts\"");
 }
@@ -122,7 +126,7 @@ TEST_F(plan_file, is_refused_by_its_name) {
 
 TEST(wrong_order, of_another_version_or_of_a_person_is_refused) {
   order o;
-  o.plan = parse_plan(valid, 1);
+  o.plan = parse_plan(right_plan, 1);
   o.what = errand::verify;
   o.round = 7;
   json j = order_json(o);
