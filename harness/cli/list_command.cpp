@@ -8,41 +8,17 @@
 #include <pairsum/cases/case.hpp>
 #include <pairsum/core/isa.hpp>
 #include <pairsum/core/names.hpp>
-#include <pairsum/core/precision.hpp>
 #include <pairsum/integrators/integrator.hpp>
 #include <pairsum/sum/grids.hpp>
 #include <pairsum/sum/registry.hpp>
 #include "harness/cli/commands.hpp"
+#include "harness/cli/list_text.hpp"
 #include "harness/plan/study.hpp"
 #include "harness/plugin/plugins.hpp"
 #include "harness/run/describe_backend.hpp"
 
 namespace pairsum::harness {
 namespace {
-
-/// The precisions for which a backend has a formula in this build.
-std::vector<std::string> precisions_of(const backend_entry& b, const registry& r) {
-  std::vector<std::string> precisions;
-  run_request q;
-  q.backends = {std::string(b.traits.name)};
-  q.interactions = r.interactions();
-  q.smoothings = r.smoothings();
-  if (!b.unavailable.empty() || r.dims().empty()) return precisions;
-  q.dim = r.dims().front();
-  for (const std::string& precision : r.precisions()) {
-    q.precisions = {precision};
-    if (!expand(q, r).empty()) precisions.push_back(precision);
-  }
-  return precisions;
-}
-
-/// "double, float, mixed (on vector units)"
-std::string precisions_text(const registry& r) {
-  std::vector<std::string> words = r.precisions();
-  for (std::string& word : words)
-    if (word == mixed_precision) word += " (on vector units)";
-  return join(words);
-}
 
 nlohmann::json as_json() {
   const registry& r = registry::instance();
@@ -85,49 +61,40 @@ nlohmann::json as_json() {
   return all;
 }
 
-void print_text() {
+int list(const std::string& kind, const std::string& name, bool json) {
   const registry& r = registry::instance();
-  fmt::print("backends\n");
-  for (const backend_entry& b : r.backends()) {
-    fmt::print("  {:<20} {:<7}{}\n", b.traits.name, name_of(b.traits.threads), b.traits.description);
-    fmt::print("  {:<28}also: {}\n", "", b.traits.aliases);
-    if (!b.unavailable.empty()) fmt::print("  {:<28}unavailable: {}\n", "", b.unavailable);
-  }
-  fmt::print("cases\n");
-  for (const case_entry& c : case_entries()) fmt::print("  {:<20} {}\n", c.name, c.description);
-  fmt::print("integrators\n");
-  for (const integrator_entry& i : integrator_entries()) fmt::print("  {:<20} {}\n", i.name, i.description);
-  fmt::print("plans (pairsum run NAME)\n");
-  for (const shipped_plan& p : shipped_plans())
-    fmt::print("  {:<20} {}\n", p.name, load_plan(std::string(p.name)).at("title").get<std::string>());
-  std::vector<std::string> dims;
-  for (const int d : r.dims()) dims.push_back(fmt::format("{}D", d));
-  for (const missing_word& m : r.missing())
-    fmt::print("unavailable       {} {}: not in this build, configure with -D{}=all\n", m.kind, m.word, m.option);
-  fmt::print(
-      "interactions      {}\nsmoothing kernels {}\nprecisions        {}\ndimensions        {}\ngrids             {}\n"
-      "orders of memory  {}\nstates            {}\ninstruction sets  {}\n",
-      join(r.interactions()), join(r.smoothings()), precisions_text(r), join(dims), join(grid_names()),
-      join(memory_orders), join(case_states), join(isa_names()));
+  if (json && !kind.empty()) throw error("list --json prints everything there is; it takes no " + kind);
+  if (!name.empty() && kind != "backends") throw error("list tells more of one of the backends alone, not of " + kind);
+  fmt::print("{}", json           ? as_json().dump(2) + "\n"
+                   : kind.empty() ? overview_text(r)
+                   : name.empty() ? kind_text(kind, r)
+                                  : backend_text(name, r));
+  return 0;
 }
 
 }  // namespace
 
 void add_list_command(CLI::App& app, action& chosen) {
+  struct options {
+    std::string kind, name;
+    bool json = false;
+  };
   CLI::App* const command =
-      app.add_subcommand("list", "What there is: backends, cases, integrators, plans, interactions, kernels, grids");
-  const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "as JSON");
+      app.add_subcommand("list", "What there is: backends, plans, cases, interactions, smoothing kernels, grids, ...");
+  const auto o = std::make_shared<options>();
+  command->add_option("kind", o->kind,
+                      "more of one kind: backends, plans, cases, interactions, smoothings, integrators, grids, "
+                      "precisions, dims, orders, states, isas");
+  command->add_option("name", o->name, "of a backend: all that it says of itself");
+  command->add_flag("--json", o->json, "everything as JSON");
   add_plugin_option(*command);
-  command->callback([&chosen, json] {
-    chosen = [json] {
-      if (*json)
-        fmt::print("{}\n", as_json().dump(2));
-      else
-        print_text();
-      return 0;
-    };
-  });
+  command->footer(
+      "Examples:\n"
+      "  pairsum list                      all kinds of words, on one screen\n"
+      "  pairsum list backends             a line each\n"
+      "  pairsum list backends tiles_omp   its traits, source and documentation\n"
+      "  pairsum list plans                what each asks, and whether this build can carry it out");
+  command->callback([&chosen, o] { chosen = [o] { return list(o->kind, o->name, o->json); }; });
 }
 
 }  // namespace pairsum::harness

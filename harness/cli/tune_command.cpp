@@ -19,7 +19,10 @@
 #include "harness/plugin/plugins.hpp"
 #include "harness/rows/whole_file.hpp"
 #include "harness/run/interrupt.hpp"
+#include "harness/run/launch.hpp"
+#include "harness/terminal/terminal.hpp"
 #include "harness/tune/profile_json.hpp"
+#include "harness/tune/tune_json.hpp"
 #include "harness/tune/tune_text.hpp"
 
 namespace pairsum::harness {
@@ -55,7 +58,8 @@ constexpr tune_option tune_options[] = {
 struct tune_settings {
   std::map<std::string, std::string> levels;
   tune_request request;
-  std::string save;
+  std::string save = "tune.profile.json";
+  bool json = false;
 };
 
 template <class Names>
@@ -71,36 +75,42 @@ std::string every_word(const std::string& key) {
   return list_of(available_backends());
 }
 
-/// Throws, before anything is measured, if a profile could not be written there.
+/// Throws, before anything is measured, if a profile could not be written there, or would replace something else.
 void check_writable(const std::string& path) {
+  constexpr const char* instead = "; --save FILE names another file";
   std::error_code code;
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (path.empty()) throw error("--save takes the name of a file, not \"\"");
-  if (std::filesystem::is_directory(path, code)) throw error("cannot write " + path + ": it is a folder");
+  if (std::filesystem::is_directory(path, code)) throw error("cannot write " + path + ": it is a folder" + instead);
   if (::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
-    throw error("cannot write " + path + ": its folder is not there or not writable");
+    throw error("cannot write " + path + ": its folder is not there or not writable" + instead);
+  if (std::filesystem::exists(path, code) && !is_profile(path))
+    throw error("does not write over " + path + ", which is no profile of pairsum tune" + instead);
 }
 
-int start_tuning(const tune_settings& o, bool save) {
+int start_tuning(const tune_settings& o) {
   tune_request r = o.request;
   for (const auto& [key, text] : o.levels) {
     const bool all = text == "all" && (key == "backend" || key == "grid");
     read_level(r.levels, key, all ? every_word(key) : text, usable_cores(), "--" + key);
   }
   r.rules.seed = r.levels.seed;
-  if (save) check_writable(o.save);
+  check_writable(o.save);
   const registry& all = registry::instance();
   note_interrupts();
   const tune_result result = tune(r, all);
-  fmt::print("{}", tune_text(r, result, all));
-  if (result.interrupted) {
-    fmt::print("interrupted{}\n", save ? "; no profile was written" : "");
-    return 130;
-  }
-  if (save && result.winner) {
+  std::FILE* const lines = o.json ? stderr : stdout;
+  fmt::print(lines, "{}", tune_text(r, result, all, has_colours(lines)));
+  const bool saved = result.winner && !result.interrupted;
+  if (saved) {
+    const bool replaces = is_profile(o.save);
     write_whole_file(profile_json(r, result, all).dump(2) + "\n", o.save);
-    fmt::print("profile: {}\n", o.save);
+    fmt::print(lines, "\nprofile: {}{}\nto measure it again:\n  {} run --profile {}\n", o.save,
+               replaces ? " (in place of the one that was there)" : "", shell_word(called_as()), shell_word(o.save));
   }
+  if (result.interrupted) fmt::print(lines, "interrupted; no profile was written\n");
+  if (o.json) fmt::print("{}\n", tune_json(r, result, all, saved ? o.save : "").dump(2));
+  if (result.interrupted) return 130;
   return std::ranges::count(result.candidates, fate::wrong, &contestant::what) == 0 ? 0 : 1;
 }
 
@@ -123,18 +133,18 @@ void add_tune_command(CLI::App& app, action& chosen) {
       ->capture_default_str();
   command->add_option("--binding", o->request.binding, "cores_first: pins threads, one on every core first; none")
       ->capture_default_str();
-  const CLI::Option* const save =
-      command->add_option("--save", o->save, "writes what was found to a profile, for pairsum run --profile");
+  command->add_option("--save", o->save, "the file of the profile, which pairsum run --profile takes")
+      ->capture_default_str();
+  command->add_flag("--json", o->json, "what was found as one JSON document on stdout, the text on stderr");
   add_plugin_option(*command);
   command->footer(
       "Examples:\n"
       "  pairsum tune --dx 0.012                           a minute\n"
-      "  pairsum tune --dx 0.00594 --budget 180 --save talk.profile.json\n"
-      "  pairsum run --profile talk.profile.json");
-  command->callback([&chosen, o, save, M] {
-    const bool given = save->count() > 0;
+      "  pairsum run --profile tune.profile.json           measures what it found as a study\n"
+      "  pairsum tune --dx 0.00594 --budget 180 --save talk.profile.json");
+  command->callback([&chosen, o, M] {
     o->request.all_M = M->count() > 0;
-    chosen = [o, given] { return start_tuning(*o, given); };
+    chosen = [o] { return start_tuning(*o); };
   });
 }
 

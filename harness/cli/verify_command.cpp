@@ -8,13 +8,13 @@
 #include <pairsum/core/isa.hpp>
 #include <pairsum/sum/grids.hpp>
 #include "harness/cli/commands.hpp"
+#include "harness/cli/verify_report.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/measure/memory.hpp"
 #include "harness/plan/plan.hpp"
 #include "harness/plan/variants.hpp"
 #include "harness/plan/words.hpp"
 #include "harness/plugin/plugins.hpp"
-#include "harness/rows/point_words.hpp"
 #include "harness/run/point_setup.hpp"
 #include "harness/verify/verify_all.hpp"
 
@@ -26,7 +26,7 @@ struct verify_options {
   std::string case_name, dx, state = "perturbed", dim = "all", precision = "all", interaction = "all",
                              smoothing = "all", backend = "all", grid = "all", isa = "scalar,best", block = "auto",
                              M = "2,3,6,7", threads = "1,2,3,7";
-  bool each = false, all_M = true;
+  bool each = false, all_M = true, json = false;
 };
 
 /// The words of an option; "all" stands for `every`.
@@ -36,58 +36,6 @@ std::vector<std::string> words_or_all(const std::string& option, const std::stri
 }
 
 std::vector<std::string> to_words(const std::vector<std::string_view>& names) { return {names.begin(), names.end()}; }
-
-/// Prints one line per formula, or per sum, as they are made.
-class lines_printer {
- public:
-  lines_printer(int dim, bool each) : dim_(dim), each_(each) {}
-  ~lines_printer() { close(); }
-
-  void add(const verify_line& l) {
-    const setup& s = l.sum;
-    const std::string formula = fmt::format("{}D  {:<8}{:<12}{:<14}", dim_, s.precision, s.interaction, s.smoothing);
-    if (formula != formula_) close();
-    formula_ = formula;
-    ++made;
-    ++here_;
-    failed += !l.ok;
-    failed_here_ += !l.ok;
-    if (l.share >= worst_) worst_ = l.share, worst_backend_ = s.backend;
-    if (each_ || !l.ok)
-      fmt::print("{}{:<17} {:<13} threads={:<4}{}\n", formula, s.backend + extras(s), cells(s), l.threads,
-                 l.ok ? fmt::format("{:.3g}", l.share) : "FAILED: " + l.error);
-    std::fflush(stdout);
-  }
-
-  std::size_t made = 0, failed = 0;
-
- private:
-  static std::string cells(const setup& s) {
-    point p;
-    p.grid = s.grid;
-    p.M = grid_takes_M(s.grid) ? s.M : 0;
-    return cells_word(p);
-  }
-  /// What was chosen of isa and block.
-  static std::string extras(const setup& s) { return " " + s.isa + (s.block == "auto" ? "" : " " + s.block); }
-
-  void close() {
-    if (here_ > 0 && !each_)
-      fmt::print("{}{:>5} sums   {}\n", formula_, here_,
-                 failed_here_ > 0 ? fmt::format("{} FAILED", failed_here_)
-                 : worst_ > 0     ? fmt::format("{:.3g} ({})", worst_, worst_backend_)
-                                  : "exact");
-    std::fflush(stdout);
-    here_ = failed_here_ = 0;
-    worst_ = 0;
-  }
-
-  int dim_;
-  bool each_;
-  std::string formula_, worst_backend_;
-  std::size_t here_ = 0, failed_here_ = 0;
-  double worst_ = 0;
-};
 
 /// The request in one dimension: a case that exists there, a spacing for about 3000 fluid particles, and without the
 /// words that nobody asked for by name and that are not built there.
@@ -150,26 +98,20 @@ int verify(const verify_options& o) {
     requests.push_back(here);
   }
   keep_freed_memory();
-  std::size_t made = 0, failed = 0;
+  verify_report report(o.each, o.json);
   for (const run_request& there : requests) {
     for (const double dx : there.dx)
       for (const std::string& state : there.states) {
         const initial_condition c = make_case(there.case_name, {there.dim, dx, there.H, state, there.seed});
-        fmt::print("{} {}D dx={} {}: {} fluid, {} boundary particles; largest error in units of its bound\n",
-                   there.case_name, there.dim, dx, state, c.particles.count(particle_kind::fluid),
-                   c.particles.count(particle_kind::boundary));
-        lines_printer lines(there.dim, o.each);
+        report.begin(there.case_name, dx, state, c);
         run_request here = there;
         here.dx = {dx};
         here.states = {state};
         for (const run_request& part : o.all_M ? std::vector{here} : parts_with_M_that_fit(here, c))
-          verify_all(r, c, verify_plan_of(part, r), [&](const verify_line& l) { lines.add(l); });
-        made += lines.made;
-        failed += lines.failed;
+          verify_all(r, c, verify_plan_of(part, r), [&](const verify_line& l) { report.add(l); });
       }
   }
-  fmt::print("{} of {} sums agree with the reference\n", made - failed, made);
-  return failed == 0 ? 0 : 1;
+  return report.end() ? 0 : 1;
 }
 
 }  // namespace
@@ -203,6 +145,7 @@ void add_verify_command(CLI::App& app, action& chosen) {
   command->add_option("--dim", o->dim, "dimensions, or all that are built")->capture_default_str();
   command->add_option("--seed", o->request.seed, "of the perturbation and of random places")->capture_default_str();
   command->add_flag("--each", o->each, "a line per sum, not per formula");
+  command->add_flag("--json", o->json, "the sums as one JSON document on stdout, the lines on stderr");
   add_plugin_option(*command);
   command->callback([&chosen, o, M] {
     o->all_M = M->count() > 0;

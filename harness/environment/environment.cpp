@@ -95,4 +95,11 @@ environment_row describe_environment(const std::string& study, const std::string
   return row;
 }
 
+nlohmann::json provenance() {
+  nlohmann::json here = describe_environment("");
+  for (const char* of_a_study : {"schema", "kind", "study", "environment", "binding", "counters"})
+    here.erase(of_a_study);
+  return here;
+}
+
 }  // namespace pairsum::harness

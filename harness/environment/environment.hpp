@@ -1,4 +1,5 @@
 #pragma once
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "harness/rows/row.hpp"
@@ -10,6 +11,9 @@ namespace pairsum::harness {
 /// `binding` and `counters` say how threads are pinned and what the hardware counts.
 environment_row describe_environment(const std::string& study, const std::string& binding = "none",
                                      const std::string& counters = "none: not asked for");
+
+/// Machine, build and time for a document that is no rows file: an environment row without what is a study's.
+nlohmann::json provenance();
 
 /// Version, revision, compiler and flags of this build, for --version.
 std::string describe_build();

@@ -34,7 +34,7 @@ bool has_colours(std::FILE* stream) {
 
 std::string coloured(tone how, std::string_view text, bool colours) {
   if (!colours) return std::string(text);
-  const int code = how == tone::strong ? 1 : how == tone::good ? 32 : 33;
+  const int code = how == tone::strong ? 1 : how == tone::good ? 32 : how == tone::doubtful ? 33 : 31;
   return fmt::format("\x1b[{}m{}\x1b[0m", code, text);
 }
 

@@ -13,13 +13,13 @@ bool is_terminal(std::FILE* stream);
 int columns_of(std::FILE* stream);
 
 /// What a text in colour says: an emphasis, or a verdict.
-enum class tone { strong, good, doubtful };
+enum class tone { strong, good, doubtful, bad };
 
 /// Shall the stream have colours? Only if it is a terminal, other than TERM=dumb, and NO_COLOR is not set to anything
 /// (https://no-color.org).
 bool has_colours(std::FILE* stream);
 
-/// The text in bold (strong), green (good) or yellow (doubtful) if `colours`, else as it is.
+/// The text in bold (strong), green (good), yellow (doubtful) or red (bad) if `colours`, else as it is.
 std::string coloured(tone how, std::string_view text, bool colours = has_colours(stdout));
 
 /// How many columns a UTF-8 text takes whose characters are one wide each.

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The search of `pairsum tune`, without a clock or a sum of its own.
@@ -19,6 +20,11 @@ enum class fate {
   halved,     ///< dropped as one of the slower half, so that the time lasts for the others
   standing    ///< measured to the end
 };
+
+constexpr std::string_view name_of(fate f) {
+  constexpr std::string_view names[]{"not_seen", "passed_by", "wrong", "slow", "worse", "halved", "standing"};
+  return names[static_cast<unsigned>(f)];
+}
 
 struct contestant {
   std::string family;            ///< candidates of one algorithm; a slow one speaks for the rest

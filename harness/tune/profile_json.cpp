@@ -74,16 +74,20 @@ saved_profile read(const json& j) {
 
 }  // namespace
 
+json case_json(const run_request& r) {
+  const json levels = levels_json(r);
+  json made_for;
+  for (const std::string_view key : case_levels) made_for[std::string(key)] = levels.at(std::string(key));
+  return made_for;
+}
+
 json profile_json(const tune_request& r, const tune_result& result, const registry& all) {
   const point& best = result.points.at(result.winner.value());
   const tuned_time time = time_of(result);
   const environment_row here = describe_environment("tune", "", "");
-  const json levels = levels_json(r.levels);
-  json made_for;
-  for (const std::string_view key : case_levels) made_for[std::string(key)] = levels.at(std::string(key));
   return {{"schema", profile_schema},
           {"words", profile_words(best, all)},
-          {"case", made_for},
+          {"case", case_json(r.levels)},
           {"n_fluid", best.n_fluid},
           {"n_boundary", best.n_boundary},
           {"machine", {{"host", here.host}, {"cpu", here.cpu}, {"cores", usable_cores()}}},
@@ -103,6 +107,16 @@ saved_profile read_profile(const std::string& path) {
     return read(j);
   } catch (const error& e) {
     throw error(fmt::format("{}: is no profile of pairsum tune: {}", path, e.what()));
+  }
+}
+
+bool is_profile(const std::string& path) {
+  try {
+    const json j = parsed(path);
+    const json schema = j.is_object() ? j.value("schema", json()) : json();
+    return schema.is_string() && schema.get<std::string>().starts_with("pairsum.profile/");
+  } catch (const error&) {
+    return false;
   }
 }
 

@@ -11,7 +11,7 @@ namespace pairsum::harness {
 
 inline constexpr const char* profile_schema = "pairsum.profile/1";
 
-/// What `pairsum tune --save` writes: the winner's words, the case and the machine that they are for.
+/// What `pairsum tune` writes: the winner's words, the case and the machine that they are for.
 struct saved_profile {
   std::string words;      ///< for parse_profile
   run_request levels;     ///< the case, and the words as levels
@@ -19,11 +19,17 @@ struct saved_profile {
   int cores = 1;
 };
 
+/// The levels that make the case of a request.
+nlohmann::json case_json(const run_request& r);
+
 /// The profile of a result that has a winner.
 nlohmann::json profile_json(const tune_request& r, const tune_result& result, const registry& all);
 
 /// The profile of such a file. Throws pairsum::error with one line that names the file and what is wrong with it.
 saved_profile read_profile(const std::string& path);
+
+/// Is there a file, and is it a profile, of whatever version?
+bool is_profile(const std::string& path);
 
 /// Does a profile say this level?
 bool profile_says(std::string_view level);

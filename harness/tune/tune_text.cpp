@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "harness/rows/point_words.hpp"
-#include "harness/stats/holm.hpp"
-#include "harness/stats/median.hpp"
+#include "harness/terminal/terminal.hpp"
 #include "harness/tune/candidates.hpp"
-#include "harness/tune/paired_times.hpp"
+#include "harness/tune/ladder.hpp"
 #include "harness/tune/winner.hpp"
 
 namespace pairsum::harness {
@@ -23,53 +21,29 @@ std::string what_of(const point& p, const registry& all) {
   return place_words(p) + (says_isa(p, all) ? " " + p.isa : "") + " " + p.precision;
 }
 
-/// A line of the ladder.
-struct rung {
-  std::size_t candidate;
-  ratio_estimate ratio;  ///< its time over the winner's; without pairs that of the looks
-};
-
-/// What was timed beside the winner, the fastest first.
-std::vector<rung> ladder_of(const tune_result& result) {
-  const contestant& best = result.candidates[*result.winner];
-  std::vector<rung> rungs;
-  for (std::size_t k = 0; k < result.candidates.size(); ++k) {
-    const contestant& c = result.candidates[k];
-    if (k == *result.winner || !c.look_s || c.what == fate::wrong) continue;
-    rung one{k, ratio_to(c, best)};
-    if (one.ratio.pairs == 0) one.ratio.value = *c.look_s / *best.look_s;
-    rungs.push_back(one);
-  }
-  std::ranges::stable_sort(rungs, {}, [](const rung& r) { return std::pair(r.ratio.pairs == 0, r.ratio.value); });
-  return rungs;
-}
-
 std::string interval_text(const ratio_estimate& r) {
   return r.bounds ? fmt::format("[{:.3f}, {:.3f}]", r.bounds->low, r.bounds->high) : "-";
 }
 
-std::string ladder_text(const tune_result& result, const registry& all) {
+std::string verdict_text(const rung& r, const contestant& c, bool colours) {
+  if (r.verdict == standing_of::set_aside) return "set aside after its looks";
+  const tone how = r.verdict == standing_of::slower ? tone::good : tone::doubtful;
+  return coloured(how, word_of(r.verdict), colours) + (c.what == fate::halved ? " (set aside then)" : "");
+}
+
+std::string ladder_text(const tune_result& result, const registry& all, bool colours) {
   const std::vector<rung> rungs = ladder_of(result);
   if (rungs.empty()) return "";
-  std::vector<ratio_estimate> ratios;
-  for (const rung& r : rungs) ratios.push_back(r.ratio);
-  const std::vector<ratio_verdict> verdicts = verdicts_of(ratios);
   std::size_t width = 9;
   for (const rung& r : rungs) width = std::max(width, what_of(result.points[r.candidate], all).size());
   std::string text = "its time over the winner's:\n";
   text += fmt::format("{:<{}}{:>10}  {:<16}{:>7}  {}\n", "candidate", width, "ratio", "[low, high]", "rounds", "it is");
   std::size_t looked_at = 0;
-  for (std::size_t k = 0; k < rungs.size(); ++k) {
-    const contestant& c = result.candidates[rungs[k].candidate];
-    if (rungs[k].ratio.pairs == 0 && ++looked_at > most_looks_shown) continue;
-    // Base and other change places here: the ratio is the candidate's over the winner's.
-    const std::string verdict = rungs[k].ratio.pairs == 0              ? "set aside after its looks"
-                                : verdicts[k] == ratio_verdict::faster ? "slower"
-                                : verdicts[k] == ratio_verdict::slower ? "faster"
-                                                                       : "not resolved";
-    text += fmt::format("{:<{}}{:>10.3f}  {:<16}{:>7}  {}{}\n", what_of(result.points[rungs[k].candidate], all), width,
-                        rungs[k].ratio.value, interval_text(rungs[k].ratio), c.times.size(), verdict,
-                        c.what == fate::halved && rungs[k].ratio.pairs > 0 ? " (set aside then)" : "");
+  for (const rung& r : rungs) {
+    const contestant& c = result.candidates[r.candidate];
+    if (r.ratio.pairs == 0 && ++looked_at > most_looks_shown) continue;
+    text += fmt::format("{:<{}}{:>10.3f}  {:<16}{:>7}  {}\n", what_of(result.points[r.candidate], all), width,
+                        r.ratio.value, interval_text(r.ratio), c.times.size(), verdict_text(r, c, colours));
   }
   if (looked_at > most_looks_shown)
     text += fmt::format("and {} more, set aside after their looks\n", looked_at - most_looks_shown);
@@ -86,7 +60,7 @@ std::string listed(const tune_result& result, fate what, const registry& all) {
   return n > 4 ? fmt::format("{} and {} more", text, n - 4) : text;
 }
 
-std::string left_out_text(const tune_result& result, const registry& all) {
+std::string left_out_text(const tune_result& result, const registry& all, bool colours) {
   std::string text;
   const auto add = [&](fate what, const char* why) {
     const auto n = static_cast<std::size_t>(std::ranges::count(result.candidates, what, &contestant::what));
@@ -96,28 +70,27 @@ std::string left_out_text(const tune_result& result, const registry& all) {
   add(fate::passed_by, "not measured, others of the same backend took more than twice as long as the fastest");
   for (std::size_t k = 0; k < result.candidates.size(); ++k)
     if (result.candidates[k].what == fate::wrong)
-      text +=
-          fmt::format("{} FAILED its verification: {}\n", what_of(result.points[k], all), result.candidates[k].error);
+      text += fmt::format("{} {} its verification: {}\n", what_of(result.points[k], all),
+                          coloured(tone::bad, "FAILED", colours), result.candidates[k].error);
   return text;
 }
 
 }  // namespace
 
-std::string tune_text(const tune_request& r, const tune_result& result, const registry& all) {
-  if (!result.winner) return left_out_text(result, all) + "no candidate was measured to an end\n";
+std::string tune_text(const tune_request& r, const tune_result& result, const registry& all, bool colours) {
+  if (!result.winner) return left_out_text(result, all, colours) + "no candidate was measured to an end\n";
   const point& best = result.points[*result.winner];
   const tuned_time time = time_of(result);
-  std::string text = fmt::format(
+  const std::string text = fmt::format(
       "{} of {} fluid and {} boundary particles: take {}\n{} ms {}{}\n\n",
-      r.phase == "sum" ? "the sum" : "a whole step", best.n_fluid, best.n_boundary, what_of(best, all),
-      fmt::format("{:.4g}", 1e3 * time.seconds), r.phase == "sum" ? "a sum" : "a step",
+      r.phase == "sum" ? "the sum" : "a whole step", best.n_fluid, best.n_boundary,
+      coloured(tone::strong, what_of(best, all), colours), fmt::format("{:.4g}", 1e3 * time.seconds),
+      r.phase == "sum" ? "a sum" : "a step",
       time.bounds
           ? fmt::format(" [{:.4g}, {:.4g}], {}", 1e3 * time.bounds->low, 1e3 * time.bounds->high,
                         count_of(time.rounds, "round"))
           : fmt::format(" (no interval: {})", time.rounds == 0 ? "looks alone" : count_of(time.rounds, "round")));
-  text += ladder_text(result, all) + left_out_text(result, all);
-  return text +
-         fmt::format("\nto measure it again:\n  pairsum run {} {}\n", case_options(r.levels), options_of(best, all));
+  return text + ladder_text(result, all, colours) + left_out_text(result, all, colours);
 }
 
 }  // namespace pairsum::harness

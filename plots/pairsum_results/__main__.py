@@ -1,10 +1,14 @@
 """The programs: `python3 -m pairsum_results report FILE...`, `compare A B` and `history`."""
 import argparse
+import json
 import pathlib
 import signal
 import sys
 
 from .rows import PHASES, ResultsError
+from .words import hint, unknown
+
+_HISTORY_PHASES = [name.removesuffix("_s") for name in (*PHASES, "evaluation_s")]
 
 
 class _Parser(argparse.ArgumentParser):
@@ -12,15 +16,24 @@ class _Parser(argparse.ArgumentParser):
         """One line, as the rest of pairsum has it."""
         self.exit(2, f"pairsum: {message} (see {self.prog} --help)\n")
 
+    def refuse(self, word: str):
+        """Says of a word that nothing takes which option was meant."""
+        name = word.partition("=")[0]
+        near = hint(name, [known for action in self._actions for known in action.option_strings])
+        what = f"unknown option {name} of {self.prog}" if word.startswith("-") else f'{self.prog} does not take "{word}"'
+        self.exit(2, f"pairsum: {what};{near} {self.prog} --help lists its options\n")
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Run a program; return its exit code: 0, 1 if the history found something slower, 2 with one line on stderr."""
     parser = _Parser(prog="pairsum")
-    programs = parser.add_subparsers(required=True, metavar="PROGRAM")
+    programs = parser.add_subparsers(required=True, metavar="PROGRAM", dest="program")
     _report_program(programs)
     _compare_program(programs)
     _history_program(programs)
-    options = parser.parse_args(arguments)
+    options, rest = parser.parse_known_args(arguments)
+    if rest:
+        programs.choices[options.program].refuse(rest[0])
     try:
         return options.run(options) or 0
     except ResultsError as problem:
@@ -86,13 +99,15 @@ def _compare_program(programs) -> None:
                          help=f"{', '.join(phase.removesuffix('_s') for phase in PHASES)} (default: sum)")
     program.add_argument("--allow-mixed", action="store_true",
                          help="compare different machines, or builds with uncommitted changes, nevertheless")
+    program.add_argument("--json", action="store_true", help="the comparison as one JSON document")
     program.set_defaults(run=_compare)
 
 
 def _compare(options: argparse.Namespace) -> None:
     from .sides import compare_sides
 
-    print(compare_sides(options.a, options.b, options.inputs, options.phase, options.allow_mixed), end="")
+    found = compare_sides(options.a, options.b, options.inputs, options.phase, options.allow_mixed)
+    print(json.dumps(found.document(), indent=1, allow_nan=False) if options.json else found.text().rstrip("\n"))
 
 
 def _history_program(programs) -> None:
@@ -103,9 +118,7 @@ def _history_program(programs) -> None:
         "newest revision of a machine is slower anywhere (95 % confidence over all points), 0 if not.")
     program.add_argument("inputs", nargs="*", metavar="FILE", default=["results"],
                          help="rows files, or folders of them, with the folders below (default: results)")
-    phases = [name.removesuffix("_s") for name in (*PHASES, "evaluation_s")]
-    program.add_argument("--phase", default="sum", choices=phases, metavar="PHASE",
-                         help="%(choices)s (default: sum)")
+    program.add_argument("--phase", default="sum", help=f"{', '.join(_HISTORY_PHASES)} (default: sum)")
     program.add_argument("--out", metavar="DIR", type=pathlib.Path,
                          help="folder for history.html, history.csv and machines.csv (default: history in the first "
                          "folder of rows)")
@@ -116,6 +129,8 @@ def _history(options: argparse.Namespace) -> int:
     from . import history_report
     from .history import load_history
 
+    if options.phase not in _HISTORY_PHASES:
+        raise ResultsError(unknown("phase", options.phase, _HISTORY_PHASES))
     first = pathlib.Path(options.inputs[0])
     folder = options.out or (first if first.is_dir() else first.parent) / "history"
     found = load_history(options.inputs, f"{options.phase}_s")

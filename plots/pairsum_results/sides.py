@@ -1,4 +1,5 @@
 """Is B faster than A, by how much, and how sure is that? Two backends, two rows files, or two git revisions."""
+import dataclasses
 import pathlib
 from typing import Any
 
@@ -9,20 +10,56 @@ from . import stats
 from .builds import differences
 from .compare import best
 from .ladders import made_for
-from .load import POINT, Results, cells_words, collect, load, place_words
+from .load import PLACE, POINT, Results, cells_words, collect, load, place_words
 from .rows import PHASES, ResultsError, read
-from .words import bounded, ms, text_table, wrapped
+from .summary import plain
+from .words import bounded, hint, ms, text_table, unknown, wrapped
+
+SCHEMA = "pairsum.compare/1"
 
 _LEVELS = ["state", "order", "precision", "interaction", "smoothing", "grid", "M", "threads", "isa", "block"]
 
 
-def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_mixed: bool = False) -> str:
-    """A table and a sentence on every point that both sides have. Backends, with words like precision=mixed for what
+@dataclasses.dataclass
+class Comparison:
+    """Of two sides. `pairs` has a line per point that both have: `point_a`, `point_b` (rows of the sides' points),
+    `ratio` (time of A over that of B), `low`, `high`, `rounds` that pair them (0: not paired) and `verdict` on B."""
+    a: str
+    b: str
+    phase: str
+    pairs: pd.DataFrame
+    sides: list[Results]  #: the same twice, if both are of the same rows
+    differ: str  #: what else differs between the two; empty if nothing
+    failed: pd.DataFrame
+
+    def text(self) -> str:
+        """A table and a sentence."""
+        text = f"A: {self.a}\nB: {self.b}\n"
+        if (self.pairs["rounds"] == 0).any():
+            text += wrapped("measured apart, so not paired: what disturbed one of them alone is in the ratio")
+        text += wrapped(f"they differ in {self.differ}") if self.differ else ""
+        text += "".join(f"left out, not verified: {place_words(f)}: {f.error}\n" for f in self.failed.itertuples())
+        return text + _table(self.pairs, self.sides, f"{self.phase}_s")
+
+    def document(self) -> dict[str, Any]:
+        """The same as values (comparison.schema.json). Times in seconds; ratios and verdicts at 95 %."""
+        columns, time = ["study", *POINT, "rounds"], f"{self.phase}_s"
+        own, of_base = (side.points.loc[self.pairs[f"point_{name}"], [*columns, time]].rename(columns={time: "time_s"})
+                        .to_dict(orient="records") for side, name in zip(self.sides, "ab"))
+        ratios = self.pairs[["ratio", "low", "high", "rounds", "verdict"]].to_dict(orient="records")
+        return plain({"schema": SCHEMA, "a": self.a, "b": self.b, "phase": self.phase, "differ": self.differ or None,
+                      "pairs": [{"a": p, "b": q, **ratio} for p, q, ratio in zip(own, of_base, ratios)],
+                      "left_out": self.failed[["study", "case", "state", "dx", *PLACE, "error"]]
+                      .to_dict(orient="records")})
+
+
+def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_mixed: bool = False) -> Comparison:
+    """Every point that both sides have, compared. Backends, with words like precision=mixed for what
     else may differ, and revisions measured in the same rounds are paired by round; what was measured apart is not
     (Welch). Raises ResultsError with one line for sides that are neither, or that must not be compared."""
     phases = [name.removesuffix("_s") for name in PHASES]
     if phase not in phases:
-        raise ResultsError(f'unknown phase "{phase}"; valid: {", ".join(phases)}')
+        raise ResultsError(unknown("phase", phase, phases))
     if a == b:
         raise ResultsError(f'a comparison needs two different things, not "{a}" twice')
     are_files = [pathlib.Path(side).exists() for side in (a, b)]
@@ -52,13 +89,8 @@ def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_m
                            f'{"" if sides[0] is sides[1] else ", backend"})')
     pairs = pairs.sort_values(["point_a", "point_b"], ignore_index=True)
     pairs = pairs.join(stats.ratios(logs, "a" + pairs["point_a"].astype(str), "b" + pairs["point_b"].astype(str)))
-    text = f"A: {a}\nB: {b}\n"
-    if (pairs["rounds"] == 0).any():
-        text += wrapped("measured apart, so not paired: what disturbed one of them alone is in the ratio")
-    text += wrapped(f"they differ in {differ}") if differ else ""
     failed = pd.concat([side.failed for side in (sides[:1] if sides[0] is sides[1] else sides)])
-    text += "".join(f"left out, not verified: {place_words(f)}: {f.error}\n" for f in failed.itertuples())
-    return text + _table(pairs, sides, f"{phase}_s")
+    return Comparison(a, b, phase, pairs.assign(verdict=stats.verdicts(pairs)), sides, differ, failed)
 
 
 def _is_revision(word: str, git: str) -> bool:
@@ -79,9 +111,10 @@ def _are_backends(a: str, b: str, rows: dict[str, pd.DataFrame]) -> bool:
         if backend in backends and revisions:
             raise ResultsError(f'"{backend}" is a backend, "{other}" a revision; a comparison takes two of the same '
                                "kind")
-    raise ResultsError(f'"{b if a in backends or of_a else a}" is neither a backend nor a revision of these rows; '
-                       f'there are the backends {", ".join(sorted(backends))} and the revisions '
-                       f'{", ".join(sorted(gits))}')
+    word = b if a.split(" ")[0] in backends or of_a else a
+    raise ResultsError(f'"{word}" is neither a backend nor a revision of these rows;'
+                       f'{hint(word.split(" ")[0], backends | gits)} there are the backends '
+                       f'{", ".join(sorted(backends))} and the revisions {", ".join(sorted(gits))}')
 
 
 def _of_revision(rows: dict[str, pd.DataFrame], word: str) -> dict[str, pd.DataFrame]:
@@ -114,7 +147,7 @@ def _side(text: str) -> tuple[str, dict[str, str]]:
         if not value:
             raise ResultsError(f'"{word}" behind {backend} is no level with its word, like precision=mixed')
         if level not in _LEVELS:
-            raise ResultsError(f'unknown level "{level}"; valid: {", ".join(_LEVELS)}')
+            raise ResultsError(unknown("level", level, _LEVELS))
         levels[level] = value
     return backend, levels
 
@@ -167,12 +200,11 @@ def _place(p: Any, q: Any, backend: str, rare: bool) -> str:
 def _table(pairs: pd.DataFrame, sides: list[Results], phase: str) -> str:
     first, second = (list(side.points.loc[pairs[f"point_{name}"]].itertuples()) for side, name in zip(sides, "ab"))
     rare = len({(p.dx, _rare(p)) for p in first}) > len({p.dx for p in first})  # dx decides H
-    verdicts = stats.verdicts(pairs)
     lines = [[_place(p, q, "" if sides[0] is sides[1] else f"{p.backend} ", rare), f"{p.rounds}/{q.rounds}",
               ms(getattr(p, phase)), ms(getattr(q, phase)),
-              bounded(e.ratio, e.low, e.high, 3, "  too few rounds"), verdict]
-             for p, q, e, verdict in zip(first, second, pairs.itertuples(), verdicts)]
-    count = verdicts.value_counts()
+              bounded(e.ratio, e.low, e.high, 3, "  too few rounds"), e.verdict]
+             for p, q, e in zip(first, second, pairs.itertuples())]
+    count = pairs["verdict"].value_counts()
     return text_table(["point", "rounds", "A ms", "B ms", "A/B [low, high]", "B is"], lines, 1) + (
         f"Of {len(pairs)} comparison{'' if len(pairs) == 1 else 's'} B is faster in {count.get('faster', 0)}, slower "
         f"in {count.get('slower', 0)}, no difference is resolved in {count.get('not resolved', 0)} (95 % confidence "

@@ -48,19 +48,19 @@ def summary(report: Report) -> dict[str, Any]:
                "series": _records(r.series, _SERIES), "points": _records(report.points, _POINT),
                **{name: _records(report.tables[name], columns) for name, columns in _TABLES.items()},
                "failed": _records(r.failed, ["study", "case", "state", "dx", *PLACE, "rows", "error"])}
-    return _plain(content)
+    return plain(content)
 
 
 def _records(table: pd.DataFrame, columns: list[str]) -> list[dict[str, Any]]:
     return table[columns].to_dict(orient="records")
 
 
-def _plain(value: Any, name: str = "") -> Any:
+def plain(value: Any, name: str = "") -> Any:
     """The value as JSON has it: whole numbers whole, null for what is not there."""
     if isinstance(value, dict):
-        return {key: _plain(one, key) for key, one in value.items()}
+        return {key: plain(one, key) for key, one in value.items()}
     if isinstance(value, list):
-        return [_plain(one) for one in value]
+        return [plain(one) for one in value]
     if value is None or value is pd.NA or isinstance(value, (float, np.floating)) and not np.isfinite(value):
         return None
     value = value.item() if isinstance(value, np.generic) else value

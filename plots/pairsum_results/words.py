@@ -1,4 +1,5 @@
 """Numbers and points in words, for people."""
+import difflib
 from typing import Callable, Iterable
 
 import numpy as np
@@ -60,6 +61,16 @@ def bounded(value: float, low: float, high: float, digits: int = 2, missing: str
     if pd.isna(value):
         return "-"
     return fixed(value, digits) + (missing if pd.isna(low) else f" [{low:.{digits}f}, {high:.{digits}f}]")
+
+
+def hint(word: str, valid: Iterable[str]) -> str:
+    """ " did you mean ...?" with the nearest of the valid words, or nothing if none is near."""
+    return "".join(f" did you mean {near}?" for near in difflib.get_close_matches(word, list(valid), 1))
+
+
+def unknown(what: str, word: str, valid: Iterable[str]) -> str:
+    """What is said of a word that is none of the valid ones."""
+    return f'unknown {what} "{word}";{hint(word, valid)} valid: {", ".join(valid)}'
 
 
 def threads_words(n: int) -> str:

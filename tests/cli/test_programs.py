@@ -70,16 +70,12 @@ def test_number_of_sums():
     assert number_of_sums({**built, "isas": []}, 2, 3) == (2 + 1) * ((1 + 1 + 1) + 3 * (1 + 1))
 
 
-def test_list_and_its_json_agree(pairsum, listed):
+def test_what_is_listed_is_what_the_folders_hold(listed):
     names = [b["name"] for b in listed["backends"]]
     in_tree = {p.stem for p in (SOURCE / "kernels/backends").glob("*.cpp")}
     assert len(names) == len(set(names)) and set(names) == in_tree
     known = set(listed["smoothings"]) | {m["word"] for m in listed["unavailable"] if m["kind"] == "smoothing kernel"}
     assert known == {p.stem for p in (SOURCE / "kernels/smoothing").glob("*.hpp")}
-    text = pairsum("list").stdout
-    for kind in ["backends", "cases", "integrators"]:
-        for entry in listed[kind]:
-            assert entry["name"] in text and entry["description"] in text
     assert set(listed["states"]) == {"rest", "perturbed"}
 
 

@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 import signal
 import subprocess
 import time
@@ -17,11 +18,12 @@ SMALL = ["--dx", "0.08", "--M", "3", "--threads", "1", "--backend", "naive,symme
 def profile(pairsum, tmp_path):
     done = pairsum("tune", *SMALL, "--save", "p.json")
     assert done.returncode == 0, done.stderr
-    assert done.stdout.splitlines()[-1] == "profile: p.json"
+    assert done.stdout.endswith(f"\nprofile: p.json\nto measure it again:\n  {BIN / 'pairsum'} run --profile p.json\n")
+    assert not (tmp_path / "tune.profile.json").exists()
     return tmp_path / "p.json"
 
 
-def test_tune_says_what_to_take_what_it_beat_and_how_to_measure_it_again(pairsum):
+def test_tune_says_what_to_take_what_it_beat_and_how_to_measure_it_again(pairsum, tmp_path):
     done = pairsum("tune", *SMALL)
     assert (done.returncode, done.stderr) == (0, "")
     winner = re.search(r"^a whole step of \d+ fluid and \d+ boundary particles: take (\w+) M=3 threads=1 double$", done.stdout, re.M)
@@ -29,10 +31,31 @@ def test_tune_says_what_to_take_what_it_beat_and_how_to_measure_it_again(pairsum
     assert re.search(r"^\S+ ms a step \[\S+, \S+\], \d+ rounds$", done.stdout, re.M), done.stdout
     other = {"naive": "symmetric", "symmetric": "naive"}[winner[1]]
     assert re.search(rf"^{other} M=3 threads=1 double +\S+  \[\S+, \S+\] +\d+  (slower|faster|not resolved)", done.stdout, re.M)
-    command = re.search(r"^  pairsum (run .*)$", done.stdout, re.M)[1].split()
+    assert json.loads((tmp_path / "tune.profile.json").read_text())["words"].startswith(f"backend={winner[1]} ")
+    command = re.search(r"^  \S*pairsum (run .*)$", done.stdout, re.M)[1].split()
+    assert command == ["run", "--profile", "tune.profile.json"]
     again = pairsum(*command, "--rounds", 1, "--steps", 1, "--out", "again.jsonl")
     assert again.returncode == 0, again.stderr
     assert f"\n{winner[1]} " in again.stdout
+
+
+def test_a_profile_takes_the_place_of_one_and_of_nothing_else(pairsum, profile, tmp_path):
+    first = profile.read_text()
+    done = pairsum("tune", *SMALL, "--save", "p.json")
+    assert done.returncode == 0 and "profile: p.json (in place of the one that was there)" in done.stdout
+    assert profile.read_text() != first
+    for name, content in [("p.json", '{"schema": "other"}'), ("p.json", "a,b\n1,2\n"), ("tune.profile.json", "[1]"), ("p.json", "")]:
+        (tmp_path / name).write_text(content)
+        done = pairsum("tune", *SMALL, *(["--save", name] if name == "p.json" else []))
+        assert refused(done, f"does not write over {name}", "no profile", "--save FILE")
+        assert (tmp_path / name).read_text() == content
+
+
+def test_the_command_takes_a_name_as_a_shell_does(pairsum, tmp_path):
+    done = pairsum("tune", *SMALL, "--save", "it's mine.json")
+    assert done.returncode == 0, done.stderr
+    command = re.search(r"^  \S*pairsum (run .*)$", done.stdout, re.M)[1]
+    assert shlex.split(command) == ["run", "--profile", "it's mine.json"]
 
 
 def test_tune_of_the_sum_alone(pairsum):

@@ -15,6 +15,7 @@ import pairsum_results as pr
 from pairsum_results import __main__ as program
 from pairsum_results.sides import compare_sides
 
+COMPARISON = json.loads((ROOT / "plots/pairsum_results/comparison.schema.json").read_text())
 SCHEMA = json.loads((ROOT / "plots/pairsum_results/summary.schema.json").read_text())
 
 
@@ -87,20 +88,20 @@ def test_a_ladder_in_ten_lines_of_pandas(rows):
 
 def test_backends_are_compared_round_by_round(rows):
     path = rows(made.talk())
-    text = compare_sides("naive", "symmetric", [path])
+    text = compare_sides("naive", "symmetric", [path]).text()
     assert text.startswith("A: naive\nB: symmetric\npoint") and "measured apart" not in text
     assert "dam_break rest dx=0.00594 M=6 threads=1     6/6  1050.0  525.00  2.000 [2.000, 2.000]  faster\n" in text
     assert "Of 2 comparisons B is faster in 2, slower in 0, no difference is resolved in 0 (95 %" in text
-    assert "slower in 2" in compare_sides("symmetric", "naive", [path])
-    assert "2100.0  1050.0  2.000" in compare_sides("naive M=6", "symmetric", [path], "total")
+    assert "slower in 2" in compare_sides("symmetric", "naive", [path]).text()
+    assert "2100.0  1050.0  2.000" in compare_sides("naive M=6", "symmetric", [path], "total").text()
 
 
 def test_backends_may_differ_in_levels_that_are_named(rows):
     mixed = {"precision": "mixed", "grid": "compact_grid"}
     path = rows([(made.point("naive"), 1.0), (made.point("naive", 7), 1.2), (made.point("naive", None, **mixed), 0.25)])
-    text = compare_sides("naive precision=double", "naive precision=mixed grid=compact_grid", [path])
+    text = compare_sides("naive precision=double", "naive precision=mixed grid=compact_grid", [path]).text()
     assert "M=6/compact_grid threads=1" in text and "4.000 [4.000, 4.000]" in text and "Of 2 comparisons" in text
-    one = compare_sides("naive M=7 precision=double", "naive M=none precision=mixed grid=compact_grid", [path])
+    one = compare_sides("naive M=7 precision=double", "naive M=none precision=mixed grid=compact_grid", [path]).text()
     assert "Of 1 comparison B is faster in 1" in one
 
 
@@ -111,11 +112,11 @@ def test_blocks_and_vector_units_tell_pairs_apart(rows):
                  (made.point("tiles_omp", 7, 2, isa="avx512", block="auto"), 0.5, units(8)),
                  (made.point("tiles_omp", 7, 2, isa="avx512", block="slab:4"), 0.25, units(8)),
                  (made.point("symmetric_omp", 7, 2), 0.8), (made.point("symmetric_omp", 7, 2, isa="avx512"), 0.4, units(8))])
-    text = compare_sides("naive_omp", "tiles_omp", [path])  # each on what it is made for
+    text = compare_sides("naive_omp", "tiles_omp", [path]).text()  # each on what it is made for
     assert "threads=2 avx512 slab:4" in text and "Of 2 comparisons B is faster in 2" in text
-    assert "threads=2 avx512 / avx512 slab:4" in compare_sides("tiles_omp block=auto", "tiles_omp block=slab:4", [path])
-    assert "Of 1 comparison " in compare_sides("naive_omp", "symmetric_omp", [path])
-    assert "Of 1 comparison " in compare_sides("naive_omp", "symmetric_omp isa=avx512", [path])
+    assert "threads=2 avx512 / avx512 slab:4" in compare_sides("tiles_omp block=auto", "tiles_omp block=slab:4", [path]).text()
+    assert "Of 1 comparison " in compare_sides("naive_omp", "symmetric_omp", [path]).text()
+    assert "Of 1 comparison " in compare_sides("naive_omp", "symmetric_omp isa=avx512", [path]).text()
 
 
 def test_files_and_revisions_are_unpaired_unless_measured_together(rows):
@@ -127,11 +128,11 @@ def test_files_and_revisions_are_unpaired_unless_measured_together(rows):
 
     gcc, clang = build("1", git="1a2b3c4d"), build("2", compiler="Clang 14.0.6", git="5e6f7a8b")
     a, b = rows([by(gcc, 1.0)], "apart/a.jsonl", before=[gcc]), rows([by(clang, 0.5)], "apart/b.jsonl", before=[clang])
-    text = compare_sides(a, b, [])
+    text = compare_sides(a, b, []).text()
     assert "measured apart, so not paired" in text and "  2.000 [1.5" in text and "faster in 1" in text
     assert "they differ in compiler (Clang 14.0.6, GNU 12.2.0), git (1a2b3c4d, 5e6f7a8b)" in text
     both = rows([by(gcc, 1.0), by(clang, 0.8)], "both.jsonl", before=[gcc, clang])
-    text = compare_sides("1a2b3c4d", "5e6f7a8b99", [both])
+    text = compare_sides("1a2b3c4d", "5e6f7a8b99", [both]).text()
     assert "1.250 [1.250, 1.250]  faster\n" in text and "measured apart" not in text
     elsewhere, dirty = build("3", host="elsewhere"), build("4", dirty=True)
     other, changed = (rows([by(e, 1.0)], f"{e['environment']}.jsonl", before=[e]) for e in (elsewhere, dirty))
@@ -139,7 +140,7 @@ def test_files_and_revisions_are_unpaired_unless_measured_together(rows):
                        (changed, "built from a tree with uncommitted changes"), (both, "holds rows of several builds")):
         with pytest.raises(pr.ResultsError, match=says):
             compare_sides(a, side, [])
-    assert "host (elsewhere, node)" in compare_sides(a, other, [], allow_mixed=True)
+    assert "host (elsewhere, node)" in compare_sides(a, other, [], allow_mixed=True).text()
     with pytest.raises(pr.ResultsError, match="no point in common .same study, case, dx, grid, M, threads, backend"):
         compare_sides(a, rows([by(gcc, 1.0, "symmetric")], "c.jsonl", before=[gcc]), [])
 
@@ -149,15 +150,57 @@ def test_wrong_sides_are_refused_in_one_line(rows):
     for a, b, says in (("naive", "naive", 'not "naive" twice'), (path, "naive", 'is a file, "naive" is none'),
                        ("naive", "abc1234", '"naive" is a backend, "abc1234" a revision'),
                        ("abc1", "abc1234", "both name the revision abc1234"),
-                       ("naive", "gather", '"gather" is neither a backend nor a revision of these rows'),
+                       ("naive", "gather", '"gather" is neither a backend nor a revision of these rows; there are'),
+                       ("naive", "symetric_omp M=6", "of these rows; did you mean symmetric_omp? there are"),
                        ("naive", "symmetric threads=2", "have no point in common"),
-                       ("naive", "symmetric precison=mixed", 'unknown level "precison"; valid: state, order, precision'),
+                       ("naive", "symmetric precison=mixed", 'unknown level "precison"; did you mean precision? valid: state'),
                        ("naive", "symmetric mixed", '"mixed" behind symmetric is no level')):
         with pytest.raises(pr.ResultsError, match="^[^\n]*$") as caught:
             compare_sides(a, b, [path])
         assert says in str(caught.value)
     with pytest.raises(pr.ResultsError, match='unknown phase "foo"; valid: index, prepare'):
         compare_sides("naive", "symmetric", [path], "foo")
+
+
+def test_a_comparison_is_a_document_too(rows, capsys):
+    corrupt = {"error": "rate 7 is off", "phases": None, "work": None}
+    path = rows([*made.talk(), (made.point("corrupt_naive_omp"), 1.0, corrupt)])
+    found = compare_sides("naive", "symmetric", [path])
+    document = found.document()
+    jsonschema.validate(document, COMPARISON)
+    assert document["differ"] is None and [p["error"] for p in document["left_out"]] == ["rate 7 is off"]
+    six = document["pairs"][0]
+    assert (six["a"]["backend"], six["b"]["backend"], six["a"]["M"]) == ("naive", "symmetric", 6)
+    assert six["a"]["time_s"] == pytest.approx(1.05) and six["b"]["time_s"] == pytest.approx(0.525)
+    assert (six["ratio"], six["rounds"], six["verdict"]) == (pytest.approx(2), 6, "faster")
+    assert program.main(["compare", "naive", "symmetric", "--in", path, "--json"]) == 0
+    said = capsys.readouterr()
+    assert json.loads(said.out) == document and said.err == ""
+    for wrong in ({"schema": "pairsum.compare/2"}, {"pairs": [{**six, "verdict": "better"}]}, {"more": 1}):
+        with pytest.raises(jsonschema.ValidationError):
+            jsonschema.validate({**document, **wrong}, COMPARISON)
+
+
+def test_few_rounds_have_null_bounds_in_the_document(rows):
+    path = rows([(made.point("naive"), 1.0), (made.point("symmetric"), 0.5)], rounds=2)
+    only, = compare_sides("naive", "symmetric", [path]).document()["pairs"]
+    assert only["low"] is None and only["high"] is None and only["verdict"] == "not resolved"
+
+
+@pytest.mark.parametrize("words, says", [
+    (["compare", "a", "b", "--phsae", "total"], "unknown option --phsae of pairsum compare; did you mean --phase?"),
+    (["report", "a", "--table"], None),  # the beginning of an option is that option
+    (["report", "a", "--xyzzy=3"], "unknown option --xyzzy of pairsum report; pairsum report --help lists"),
+    (["history", "--pahse=sum"], "unknown option --pahse of pairsum history; did you mean --phase?"),
+    (["compare", "a", "b", "c"], 'pairsum compare does not take "c"; pairsum compare --help')])
+def test_misspelt_options_are_refused_with_what_was_meant(words, says, capsys, monkeypatch):
+    monkeypatch.setattr(program, "_report", lambda options: None)
+    if says is None:
+        assert program.main(words) == 0
+        return
+    with pytest.raises(SystemExit) as left:
+        program.main(words)
+    assert left.value.code == 2 and says in capsys.readouterr().err
 
 
 def test_every_committed_summary_keeps_its_schema():

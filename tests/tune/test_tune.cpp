@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include <pairsum/core/error.hpp>
 #include "harness/self_test/self_test.hpp"
 #include "harness/tune/paired_times.hpp"
 #include "harness/tune/profile_json.hpp"
+#include "harness/tune/tune_json.hpp"
 #include "harness/tune/tune_text.hpp"
 
 namespace pairsum::harness {
@@ -41,12 +43,35 @@ TEST(tune, a_backend_slowed_by_a_fifth_does_not_win_and_a_corrupt_one_gets_no_ti
   const std::string text = tune_text(r, result, all);
   EXPECT_NE(text.find("take " + winner + " M=5 threads=1 double\n"), text.npos) << text;
   EXPECT_NE(text.find("corrupt_symmetric_omp M=5 threads=1 double FAILED its verification: "), text.npos) << text;
-  EXPECT_NE(
-      text.find("pairsum run --case dam_break --dx 0.06 --state perturbed --dim 3 --interaction ferrari09 --smoothing "
-                "wendland_c2 --backend " +
-                winner + " --grid hashed_grid --M 5 "),
-      text.npos)
-      << text;
+  const nlohmann::json document = tune_json(r, result, all, "p.json");
+  EXPECT_EQ(document["profile"], "p.json");
+  const std::string command = document["winner"]["command"];
+  EXPECT_TRUE(
+      command.starts_with("pairsum run --case dam_break --dx 0.06 --state perturbed --dim 3 --interaction "
+                          "ferrari09 --smoothing wendland_c2 --backend " +
+                          winner + " --grid hashed_grid --M 5 "))
+      << command;
+  for (const nlohmann::json& c : document["candidates"]) {
+    const std::string backend = c["backend"];
+    const bool wins = backend == winner, wrong = backend == "corrupt_symmetric_omp";
+    EXPECT_EQ(c["verdict"].is_null(), wins || wrong) << c;
+    EXPECT_EQ(c["look_s"].is_null(), wrong) << c;
+    EXPECT_EQ(c["error"].is_null(), !wrong) << c;
+    if (c["verdict"] == "slower") {
+      EXPECT_GT(c["low"], 1.0) << c;
+    }
+  }
+}
+
+TEST(tune, colours_are_in_the_verdicts_alone_and_only_if_asked_for) {
+  const registry all = with_self_test(registry::instance());
+  const tune_request r = small({"naive_omp", "slowed_20_naive_omp", "corrupt_symmetric_omp"});
+  const tune_result result = tune(r, all);
+  const std::string plain = tune_text(r, result, all), coloured = tune_text(r, result, all, true);
+  EXPECT_EQ(plain.find('\x1b'), plain.npos);
+  EXPECT_NE(coloured.find("\x1b[31mFAILED\x1b[0m"), coloured.npos) << coloured;
+  EXPECT_NE(coloured.find("take \x1b[1m"), coloured.npos) << coloured;
+  EXPECT_EQ(std::regex_replace(coloured, std::regex("\x1b\\[[0-9]+m"), ""), plain);
 }
 
 TEST(tune, M_that_do_not_go_round_a_periodic_box_are_left_out_unless_they_were_asked_for) {
