@@ -27,10 +27,13 @@ void add_new(std::vector<json>& all, const std::vector<json>& more) {
     if (std::ranges::find(all, v) == all.end()) all.push_back(v);
 }
 
-std::string text_of(const std::vector<json>& values) {
+std::string text_of(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+error not_in_plan(const study_plan& plan, const std::string& key, const json& value, const std::vector<json>& there) {
   std::vector<std::string> words;
-  for (const json& v : values) words.push_back(v.is_string() ? v.get<std::string>() : v.dump());
-  return join(words);
+  for (const json& v : there) words.push_back(text_of(v));
+  return error(fmt::format("the plan {} has no {} {};{} it has {}", plan.study, key, text_of(value),
+                           value.is_string() ? hint_for(text_of(value), words) : "", join(words)));
 }
 
 /// What "backend=a,b" names, after it was looked up in the plan's values.
@@ -41,9 +44,7 @@ std::vector<json> wanted_values(const study_plan& plan, const std::string& key, 
     run_request read;
     read_level(read, key, word, cores, "--only " + key);
     for (const json& v : values_of(read, key)) {
-      if (std::ranges::find(there, v) == there.end())
-        throw error(fmt::format("the plan {} has no {} {}; it has {}", plan.study, key,
-                                text_of(std::vector<json>(1, v)), text_of(there)));
+      if (std::ranges::find(there, v) == there.end()) throw not_in_plan(plan, key, v, there);
       add_new(wanted, std::vector<json>(1, v));
     }
   }

@@ -15,6 +15,8 @@ MISSPELT = [
     (["verify", "backend"], 'pairsum verify does not take "backend"; did you mean --backend?'),
     (["list", "--jsno"], "unknown option --jsno of pairsum list; did you mean --json?"),
     (["report", "rows.jsonl", "--tabels"], "unknown option --tabels of pairsum report; did you mean --tables?"),
+    (["run", "quick", "--only", "bakcend=naive"], 'unknown level of --only "bakcend"; did you mean backend?'),
+    (["run", "quick", "--only", "backend=symetric"], "has no backend symetric; did you mean symmetric?"),
     (["history", "--phase", "totl"], 'unknown phase "totl"; did you mean total?'),
     (["run", "tlak"], 'unknown plan "tlak"; did you mean talk?'),
     ([*SMALL, "--backend", "symetric_omp"], 'unknown backend "symetric_omp"; did you mean symmetric_omp?'),
