@@ -37,7 +37,7 @@ shared_world& world_of(const bench_request& r) {
 
 void sum_benchmark(benchmark::State& state, const bench_request& r, const point& p) {
   shared_world& w = world_of(r);
-  const auto summation = registry::instance().make_summation(setup_of_point(p, w.initial, registry::instance()));
+  const auto summation = registry::instance().make_summation(setup_of_point(p, w.initial));
   const worker_team workers(summation->traits().threads, p.threads);
   const team& t = workers.get();
   summation->load(w.initial.particles, {});

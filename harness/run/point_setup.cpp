@@ -17,7 +17,7 @@ void fit_to_machine(setup& s) {
 }
 
 /// The words of a point, in the world of `s`.
-setup named(const point& p, setup s, const registry& all) {
+setup named(const point& p, setup s) {
   s.backend = p.backend;
   s.interaction = p.interaction;
   s.smoothing = p.smoothing;
@@ -32,9 +32,7 @@ setup named(const point& p, setup s, const registry& all) {
 
 }  // namespace
 
-setup setup_of_point(const point& p, const initial_condition& c, const registry& all) {
-  return named(p, setup_of(c), all);
-}
+setup setup_of_point(const point& p, const initial_condition& c) { return named(p, setup_of(c)); }
 
 bool M_fits(int M, const std::string& backend, const initial_condition& c, const registry& all) {
   setup s = with_skin(setup_of(c), all.find_backend(backend).traits.skin);
@@ -47,7 +45,7 @@ verify_plan verify_plan_of(const run_request& r, const registry& all) {
   verify_plan plan;
   for (const world_plan& points : expand(r, all)) {
     plan.emplace_back();
-    for (const point& p : points) plan.back().push_back({named(p, {}, all), p.threads});
+    for (const point& p : points) plan.back().push_back({named(p, {}), p.threads});
   }
   return plan;
 }

@@ -8,7 +8,7 @@
 namespace pairsum::harness {
 
 /// The setup that a point's words name, in the world of a case, on this machine.
-setup setup_of_point(const point& p, const initial_condition& c, const registry& all);
+setup setup_of_point(const point& p, const initial_condition& c);
 
 /// Can a hashed grid with this M be had in the world of a case for the backend, with its skin? In a periodic box the
 /// torus must close where the box does.

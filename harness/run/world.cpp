@@ -31,7 +31,7 @@ world_particles::world_particles(const run_request& r, const point& any)
 world::world(const measuring& with, const run_request& r, const point& any,
              std::shared_ptr<const world_particles> particles)
     : with_(with), request_(r), any_(any), particles_(std::move(particles)) {
-  with_.all.make_summation(setup_of_point(any, particles_->initial, with_.all))->check(particles_->initial.particles);
+  with_.all.make_summation(setup_of_point(any, particles_->initial))->check(particles_->initial.particles);
 }
 
 /// Everything that particles, reference and trajectory depend on, and the build.
@@ -44,7 +44,7 @@ std::string world::key() const {
 
 void world::make_reference() {
   const worker_team workers(runtime::omp, usable_cores(), &with_.binding);
-  verifier_ = std::make_unique<verifier>(with_.all, setup_of_point(any_, particles_->initial, with_.all),
+  verifier_ = std::make_unique<verifier>(with_.all, setup_of_point(any_, particles_->initial),
                                          particles_->initial.particles, workers.get(), with_.store, key());
   recall_work();
 }
@@ -90,7 +90,7 @@ work_row world::work_of(const point& p, summation& s) {
       at->second.vector_units = {s.block(), lanes, vectors,
                                  room > 0 ? static_cast<double>(w.fluid_evaluated()) / room : 0};
     }
-    if (!costs_) costs_ = with_.all.make_reference(setup_of_point(any_, particles_->initial, with_.all))->costs();
+    if (!costs_) costs_ = with_.all.make_reference(setup_of_point(any_, particles_->initial))->costs();
     const cost_bound bound =
         bound_of({*costs_, s.traits(), w, p.n_fluid, p.n_boundary, with_.last_level_cache_bytes, {}});
     at->second.flops = bound.flops;
@@ -134,7 +134,7 @@ std::optional<std::uint64_t> growth(std::uint64_t before, const std::optional<st
 
 world::result world::measure(const point& p, int steps) {
   result out;
-  const auto summation = with_.all.make_summation(setup_of_point(p, particles_->initial, with_.all));
+  const auto summation = with_.all.make_summation(setup_of_point(p, particles_->initial));
   const runtime kind = summation->traits().threads;
   const worker_team workers(kind, p.threads, &with_.binding);
   const team t = workers.get().with(parse_granularity(p.granularity, kind));

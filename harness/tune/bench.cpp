@@ -29,7 +29,7 @@ void tune_bench::leave_out_M_that_do_not_fit(std::vector<point>& points) const {
 }
 
 void tune_bench::check_input(const point& p) const {
-  all_.make_summation(setup_of_point(p, particles_.initial, all_))->check(particles_.initial.particles);
+  all_.make_summation(setup_of_point(p, particles_.initial))->check(particles_.initial.particles);
 }
 
 void tune_bench::complete(point& p) const {
@@ -42,7 +42,7 @@ void tune_bench::make_reference(const point& p) {
   auto& v = verifiers_[p.precision];
   if (v) return;
   const worker_team workers(runtime::omp, usable_cores(), &binding_);
-  v = std::make_unique<verifier>(all_, setup_of_point(p, particles_.initial, all_), particles_.initial.particles,
+  v = std::make_unique<verifier>(all_, setup_of_point(p, particles_.initial), particles_.initial.particles,
                                  workers.get());
 }
 
@@ -66,7 +66,7 @@ std::optional<double> tune_bench::evaluate(summation& s, const point& p, const t
 
 std::optional<double> tune_bench::measure(const point& p, std::string& error) {
   make_reference(p);
-  const auto s = all_.make_summation(setup_of_point(p, particles_.initial, all_));
+  const auto s = all_.make_summation(setup_of_point(p, particles_.initial));
   const runtime kind = s->traits().threads;
   const worker_team workers(kind, p.threads, &binding_);
   const team t = workers.get().with(parse_granularity(p.granularity, kind));
