@@ -106,7 +106,7 @@ void check_backend_built(const run_request& r, const std::string& backend, const
   one.backends = {backend};
   if (!is_any_built(one, all))
     throw unavailable(
-        fmt::format("backend {} cannot be had with isa {}{}", backend, join(r.isas), reason_of(one, all)));
+        fmt::format("backend {} is unavailable with isa {}{}", backend, join(r.isas), reason_of(one, all)));
 }
 
 }  // namespace
