@@ -16,7 +16,7 @@ struct machine {
 
 machine describe_machine();
 
-/// NUMA nodes this process may use; 1 if the machine does not tell.
+/// NUMA nodes this process may use; 1 if unknown.
 int numa_nodes();
 
 /// Threads the machine has for this process (hardware threads it may run on), as it was when first asked.

@@ -6,7 +6,7 @@
 
 namespace pairsum::harness {
 
-/// Where a processing unit (hardware thread) lies, in numbers that mean nothing but "the same" and "before".
+/// The location of a processing unit (hardware thread), as numbers that only mean "the same" and "before".
 struct unit_place {
   int unit;  ///< the operating system's number
   int core, node, package;

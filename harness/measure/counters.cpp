@@ -21,7 +21,7 @@ int open_counter(const counter_event& e) {
   a.inherit = 1;
   a.exclude_kernel = 1;
   a.exclude_hv = 1;
-  // More events than the processor has counters take turns: then the times tell how much of the phase was seen.
+  // More events than the processor has counters take turns: then the times say how much of the phase was counted.
   a.read_format = PERF_FORMAT_TOTAL_TIME_ENABLED | PERF_FORMAT_TOTAL_TIME_RUNNING;
   return static_cast<int>(syscall(SYS_perf_event_open, &a, 0, -1, -1, PERF_FLAG_FD_CLOEXEC));
 }

@@ -7,15 +7,15 @@ namespace pairsum::harness {
 
 /// Processor time since the machine started [s].
 struct machine_time {
-  double busy_s = 0;   ///< of all processes and the kernel, and what a hypervisor took away (steal)
+  double busy_s = 0;   ///< of all processes and the kernel, and of the hypervisor (steal)
   double total_s = 0;  ///< busy and idle, over all processors
 };
 
-/// Empty where /proc does not tell. The kernel counts in ticks, mostly of 10 ms.
+/// Empty where /proc does not report it. The kernel counts in ticks, mostly of 10 ms.
 std::optional<machine_time> machine_time_now();
 
-/// Which share of the machine's time between two readings went to others than those who used `own_s` seconds of it;
-/// empty if a reading is, or if they are the same.
+/// The share of the machine's time between two readings that others used, besides `own_s` seconds of our own; empty if
+/// a reading is, or if they are the same.
 std::optional<double> share_of_others(const std::optional<machine_time>& before,
                                       const std::optional<machine_time>& after, double own_s);
 

@@ -8,12 +8,12 @@ namespace pairsum::harness {
 /// memory.
 void keep_freed_memory();
 
-/// Bytes of the heap that are in use, over all threads; empty where the allocator does not tell.
+/// Bytes of the heap that are in use, over all threads; empty where the allocator does not report it.
 std::optional<std::uint64_t> heap_bytes();
 
 /// Restarts the kernel's record of the largest resident set of this process, where the kernel allows it.
 void reset_peak_rss();
-/// Largest resident set in bytes since the last reset; empty where /proc does not tell.
+/// Largest resident set in bytes since the last reset; empty where /proc does not report it.
 std::optional<std::uint64_t> peak_rss_bytes();
 
 }  // namespace pairsum::harness

@@ -17,7 +17,7 @@ class pass_times final : public pass_observer {
   explicit pass_times(int threads) : lanes_(static_cast<std::size_t>(threads)) {}
 
   void pass_begins(unsigned pass) override {
-    // A sum that begins anew forgets the one before.
+    // A new sum discards the one before.
     if (pass == 0)
       for (lane& l : lanes_) l.busy.clear();
     if (pass == 0) lengths_.clear();
@@ -64,7 +64,7 @@ class pass_times final : public pass_observer {
     return all;
   }
 
-  /// A thread writes to its own lane alone, in cache lines of its own.
+  /// A thread writes only to its own entry, in separate cache lines.
   struct alignas(128) lane {
     clock::time_point begin;
     std::vector<double> busy;

@@ -8,7 +8,7 @@
 
 namespace pairsum::harness {
 
-/// Binds whoever enters an arena to the unit of the slot taken there.
+/// Binds each thread that enters an arena to the unit of its slot.
 class worker_team::slot_binder : public ::tbb::task_scheduler_observer {
  public:
   slot_binder(::tbb::task_arena& arena, const thread_binding& binding)

@@ -12,11 +12,11 @@ namespace pairsum::harness {
 class thread_binding;
 
 /// The threads of one measurement: a number for OpenMP, an arena for oneTBB, the caller for serial backends. Before
-/// anything but OpenMP runs, OpenMP's workers are sent away: waiting they would spin on the cores of the others.
+/// anything but OpenMP runs, OpenMP's workers are released: waiting they would spin on the cores of the others.
 ///
 /// With a binding, which must outlive the team, thread k runs on the binding's unit k: OpenMP's thread k, the thread in
-/// slot k of oneTBB's arena, the caller as thread 0. When the team is gone, caller and OpenMP threads are as free as
-/// the process; oneTBB's are when they have left the arena. One bound team lives at a time.
+/// slot k of oneTBB's arena, the caller as thread 0. When the team ends, caller and OpenMP threads are unbound;
+/// oneTBB's are unbound when they have left the arena. One bound team lives at a time.
 class worker_team {
  public:
   worker_team(runtime kind, int threads, const thread_binding* binding = nullptr);

@@ -19,8 +19,7 @@ struct cost_question {
   peak_rates peaks;  ///< of the threads that sum
 };
 
-/// What a summation costs at least, and the time below which it cannot fall: the larger of bytes/bandwidth and
-/// flops/peak.
+/// The least cost of a summation, and the lower bound for its time: the larger of bytes/bandwidth and flops/peak.
 struct cost_bound {
   double flops = 0, bytes = 0;
   double intensity = 0;    ///< flops per byte
@@ -35,7 +34,7 @@ struct cost_bound {
 /// The bound of the summation phase (docs/model.md says what is counted and what is left out).
 cost_bound bound_of(const cost_question& q);
 
-/// How the work that was counted contradicts what the backend says of itself; "" if it does not.
+/// How the counted work contradicts the backend's traits; "" if it does not.
 std::string contradiction(const backend_traits& declared, const work_counts& counted);
 
 }  // namespace pairsum::harness

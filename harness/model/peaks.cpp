@@ -23,14 +23,14 @@ constexpr std::size_t register_bytes = 32;
 constexpr std::size_t register_bytes = 16;
 #endif
 
-// clang halves the widest registers unless it is told not to.
+// By default clang uses half of the widest registers.
 #ifdef __clang__
 #define PAIRSUM_WIDEST [[clang::min_vector_width(512)]]
 #else
 #define PAIRSUM_WIDEST
 #endif
 
-/// What fits into a register, of which the compiler knows + and *.
+/// A register as a type for which the compiler has + and *.
 template <class R>
 struct lanes_of;
 template <>

@@ -8,7 +8,7 @@
 
 namespace pairsum::harness {
 
-/// The most that the machine was seen to do on the threads of a team.
+/// The highest rates measured on the threads of a team.
 struct peak_rates {
   double bandwidth_bytes_per_s = 0;  ///< a = b + s c on arrays that outgrow the caches
   double flops_per_s = 0;            ///< independent multiply-adds in registers, 2 flops each
@@ -29,8 +29,8 @@ std::size_t triad_array_bytes(std::uint64_t last_level_cache_bytes);
 /// counted. Memory is first touched by the thread that uses it, asks for large pages, and is given back.
 peak_rates measure_peaks(const std::string& precision, const team& t, const peak_limits& limits = {});
 
-/// Multiply-adds per second times 2, on average over `budget_s` seconds, whatever disturbs them: what sums of the same
-/// time are set against.
+/// Multiply-adds per second times 2, on average over `budget_s` seconds, disturbances included: the baseline for sums
+/// of the same time.
 double measure_multiply_adds(const std::string& precision, const team& t, double budget_s);
 
 namespace peak_loops {

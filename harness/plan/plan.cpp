@@ -71,7 +71,7 @@ void check_request(const run_request& r, const registry& all) {
 
 namespace {
 
-/// The granularity that a word means for a backend, as it stands in a row.
+/// The granularity that a word means for a backend, as it appears in a row.
 std::string granularity_of(const std::string& word, const backend_traits& b) {
   return name_of(word == default_granularity ? b.loop : parse_granularity(word, b.threads));
 }

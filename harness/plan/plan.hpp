@@ -8,7 +8,7 @@
 
 namespace pairsum::harness {
 
-/// Points to be measured together: lists of levels, which are crossed, and how often.
+/// Points to be measured together: lists of levels, which are crossed, and the number of repetitions.
 struct run_request {
   std::string study = "run", part = "run";
   std::string case_name = "dam_break";
@@ -22,7 +22,7 @@ struct run_request {
   std::vector<std::string> orders{"lattice"}, precisions{"double"}, interactions{"ferrari09"},
       smoothings{"wendland_c2"}, integrators{"euler"}, granularities{"default"};
   std::vector<std::string> grids{"hashed_grid"};
-  std::vector<std::string> isas{"default"};  ///< scalar, best, sets, or what each backend is made for
+  std::vector<std::string> isas{"default"};  ///< scalar, best, sets, or each backend's default
   std::vector<std::string> blocks{"auto"};   ///< of backends that go over blocks
   std::string outside = "error";
   double dt = 1e-5;

@@ -23,7 +23,7 @@ struct part_plan {
   double share = 1;       ///< weight in the distribution of the budget
 };
 
-/// A study: what is asked, and the parts that answer it.
+/// A study: its question, and the parts that answer it.
 struct study_plan {
   std::string study, title;
   double budget_s = 0;     ///< seconds for everything; 0: no limit
@@ -40,7 +40,7 @@ struct study_plan {
 /// @param cores what "all" and "cores" mean
 study_plan parse_plan(const nlohmann::json& json, int cores);
 
-/// A plan that parse_plan reads back as the same, with every default said.
+/// A plan that parse_plan reads back as the same, with every default stated.
 nlohmann::json plan_json(const study_plan& plan);
 
 /// 16 hex digits that tell plans apart; the budget does not count, so that a study may be resumed with another.

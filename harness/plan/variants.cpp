@@ -20,7 +20,7 @@ void add_once(std::vector<T>& all, T one) {
   if (std::ranges::find(all, one) == all.end()) all.push_back(std::move(one));
 }
 
-/// The setup of a tiny world, so that no wrong size speaks for what is built.
+/// The setup of a tiny domain, so that no check of sizes hides what is built.
 setup tiny(const std::string& backend, const std::string& isa, int dim, const point& world) {
   setup s;
   s.backend = backend;
@@ -36,7 +36,7 @@ setup tiny(const std::string& backend, const std::string& isa, int dim, const po
   return s;
 }
 
-/// The isa that a word means for a backend in a world, as it stands in a row; none if it is not to be had, and then
+/// The isa that a word means for a backend in a world, as it appears in a row; none if it is unavailable, and then
 /// why.
 std::optional<std::string> isa_of(const std::string& backend, const std::string& word, int dim, const point& world,
                                   const registry& all, std::string* why = nullptr) {
@@ -106,7 +106,7 @@ void check_backend_built(const run_request& r, const std::string& backend, const
   one.backends = {backend};
   if (!is_any_built(one, all))
     throw unavailable(
-        fmt::format("backend {} cannot be had with isa {}{}", backend, join(r.isas), reason_of(one, all)));
+        fmt::format("backend {} is unavailable with isa {}{}", backend, join(r.isas), reason_of(one, all)));
 }
 
 }  // namespace

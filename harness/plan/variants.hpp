@@ -25,12 +25,12 @@ struct backend_way {
 /// The backends that this build has and the machine lets it use.
 std::vector<std::string> available_backends(const registry& all = registry::instance());
 
-/// Every way in which the request's backends sum a world: with each isa that is to be had in it, and with each block if
-/// they have some. Throws pairsum::error for a backend that is unknown or unavailable.
+/// Every variant in which the request's backends sum a world: with each isa available in it, and with each block if
+/// they have blocks. Throws pairsum::error for a backend that is unknown or unavailable.
 std::vector<backend_way> ways_of(const run_request& r, const point& world, const registry& all);
 
 /// Leaves out the precisions, interactions or smoothing kernels that none of the request's backends was built for
-/// together with its other words: what nobody asked for by name. If there are no others they stay, and check_built()
+/// together with its other words: those that the user did not name. If there are no others they stay, and check_built()
 /// says what is wrong.
 void leave_out_unbuilt(run_request& r, std::vector<std::string> run_request::*words, const registry& all);
 

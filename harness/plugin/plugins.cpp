@@ -57,7 +57,7 @@ void load_plugin(const std::string& file) {
     throw error(fmt::format("{} is no plug-in: it has no symbol pairsum_plugin, which PAIRSUM_PLUGIN makes", file));
   if (offered->build != std::string_view(build_word))
     throw error(
-        fmt::format("plug-in {} is of build \"{}\" and this program of \"{}\": build the plug-in anew against "
+        fmt::format("plug-in {} is of build \"{}\" and this program of \"{}\": rebuild the plug-in against "
                     "the package that this program was installed with",
                     file, offered->build, build_word));
   const std::string what =

@@ -7,7 +7,7 @@
 #include "harness/rows/fields.hpp"
 #include "harness/rows/row.hpp"
 
-/// What the rows of every kind are written and read with.
+/// Functions to write and read rows of every kind.
 namespace pairsum::harness {
 
 /// null for what is not finite.

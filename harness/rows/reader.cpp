@@ -17,7 +17,7 @@ using nlohmann::json;
 
 std::atomic<std::uint64_t> bytes_read = 0;
 
-/// What stands behind the first `offset` bytes of a file.
+/// The contents of a file after the first `offset` bytes.
 std::string read_text(const std::filesystem::path& path, std::size_t offset) {
   std::error_code code;
   if (std::filesystem::is_directory(path, code)) throw error(path.string() + ": is a folder, should be a rows file");

@@ -42,13 +42,13 @@ struct rows_file {
   std::vector<std::pair<std::string, int>> unfinished_rounds() const;
 };
 
-/// What later rows of a file may name.
+/// Names that later rows of a file may refer to.
 struct known_names {
   std::set<std::string> environments;
   std::set<std::pair<std::string, std::string>> backends;  ///< (environment, backend)
 };
 
-/// What to do with a last line that was cut while it was written.
+/// What to do with a truncated last line.
 enum class cut_line { refuse, drop };
 
 /// Reads a rows file strictly, each row once, while it grows.
@@ -60,8 +60,8 @@ class rows_reader {
   /// file that cannot be opened, is empty, is no rows file, has a wrong row, a sample before its environment row or its
   /// backend row (the former schema has no backend rows), or a cut last line (unless it is to be dropped).
   void read_on(cut_line last_line = cut_line::refuse);
-  /// Reads on, then takes a last line away that was cut while it was written, so that rows can be appended. Returns the
-  /// number of bytes taken away; 0 if there is no file or nothing to mend.
+  /// Reads on, then removes a truncated last line, so that rows can be appended. Returns the number of bytes removed; 0
+  /// if there is no file or nothing to remove.
   std::size_t drop_cut_line();
 
   const rows_file& rows() const { return rows_; }

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// To a tenth of a microsecond, which is what a clock around a pass can tell.
+/// To a tenth of a microsecond, the resolution of a clock around a pass.
 json pass_times(const std::optional<thread_times>& times) {
   if (!times) return nullptr;
   json passes = json::array();
@@ -48,7 +48,7 @@ point read_point(fields from, bool former) {
   p.threads = from.integer("threads", 1);
   p.granularity = from.text("granularity");
   p.isa = from.text("isa");
-  if (!former || from.has("block")) p.block = from.text("block");  // rows of before there were blocks have none
+  if (!former || from.has("block")) p.block = from.text("block");  // older rows have none
   from.finish();
   return p;
 }

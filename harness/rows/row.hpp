@@ -14,7 +14,7 @@
 namespace pairsum::harness {
 
 inline constexpr const char* row_schema = "pairsum.row/3";
-/// Rows of this schema are still read; what they do not say stays empty.
+/// Rows of this schema are still read; values that they lack stay empty.
 inline constexpr const char* former_row_schema = "pairsum.row/2";
 
 /// What was measured. Two rows belong to the same point exactly if these fields are equal.
@@ -22,7 +22,7 @@ struct point {
   std::string case_name;  ///< key "case"
   std::string state;
   double dx = 0;  ///< particle spacing [m]
-  double H = 0;   ///< cut-off radius [m]
+  double H = 0;   ///< support radius [m]
   std::uint64_t n_fluid = 0;
   std::uint64_t n_boundary = 0;
   std::string order;
@@ -36,9 +36,9 @@ struct point {
   std::string grid;
   int M = 0;  ///< 0 (null in JSON) where the grid takes none
   int threads = 1;
-  std::string granularity;     ///< how its loops are shared out, "dynamic:32"; "none" for serial backends
-  std::string isa;             ///< of the vector units that it used, or "scalar"; rows of builds that had no such
-                               ///< choice have what scalar backends were compiled for
+  std::string granularity;     ///< how its loops are distributed, "dynamic:32"; "none" for serial backends
+  std::string isa;             ///< of the vector units that it used, or "scalar"; older rows have for scalar
+                               ///< backends what they were compiled for
   std::string block = "none";  ///< blocks of cells, "auto" or "slab:4"; "none" for backends without
   bool operator==(const point&) const = default;
 };
@@ -113,7 +113,7 @@ struct sample {
   std::optional<work_row> work;
   std::optional<std::uint64_t> peak_rss_bytes;
   std::optional<std::uint64_t> workspace_bytes{};  ///< that the backend holds after its first evaluation
-  std::optional<std::uint64_t> lost{};             ///< particles found outside Omega in the step, summed no more
+  std::optional<std::uint64_t> lost{};             ///< particles found outside Omega in the step, no longer summed
   std::optional<std::uint64_t> threads_worked{};   ///< of the team, as threads_worked() counts them
   verify_row verify;
   std::optional<std::string> error;
@@ -135,14 +135,14 @@ struct environment_row {
   bool operator==(const environment_row&) const = default;
 };
 
-/// A backend that tests the harness: a copy of another, whose time over that one's is known beforehand.
+/// A backend that tests the harness: a copy of another, with a known ratio of times.
 struct self_test_row {
   std::string what, base_backend;
   std::optional<double> expected;  ///< none where verification must refuse it
   bool operator==(const self_test_row&) const = default;
 };
 
-/// What a backend says of itself, before the samples that name it; words and meaning are those of `pairsum list`.
+/// The description of a backend, before the samples that name it; words and meaning are those of `pairsum list`.
 struct backend_row {
   std::string study, utc, environment, name, description, aliases, runtime, conflicts;
   bool symmetric = false, deterministic = false, vector = false, blocks = false;
@@ -150,7 +150,7 @@ struct backend_row {
   bool operator==(const backend_row&) const = default;
 };
 
-/// What the machine does at best with so many threads, measured by the program: the model's bounds.
+/// The machine's best rates with so many threads, measured by the program: the model's bounds.
 struct peak_row {
   std::string study, utc, environment;
   int threads = 1;
@@ -159,7 +159,7 @@ struct peak_row {
   bool operator==(const peak_row&) const = default;
 };
 
-/// What the machine's multiply-adds reach in the midst of a round: what sums of that round are set against.
+/// The rate of multiply-adds during a round, the baseline for speedups of that round.
 struct pace_row {
   std::string study, utc, environment;
   int round = 1;

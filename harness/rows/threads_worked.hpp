@@ -7,8 +7,8 @@
 
 namespace pairsum::harness {
 
-/// How many threads of a team were given work: those that were busy for at least 1 % of the time of the busiest, all
-/// passes together. A thread that finds nothing left to do in a pass is busy, too, for the time of a look.
+/// How many threads of a team had work: those that were busy for at least 1 % of the time of the busiest, over all
+/// passes. A thread that finds no work left in a pass is busy, too, for a moment.
 /// @param busy_s seconds by [pass][thread]
 inline std::uint64_t threads_worked(const thread_times& busy_s) {
   constexpr double least_share = 0.01;

@@ -9,7 +9,7 @@
 namespace pairsum::harness {
 
 /// Appends rows to a file so that whatever happens to the process, the file holds whole rows: each
-/// row is one write(2) followed by fsync(2), and a write that the system cut short is taken back.
+/// row is one write(2) followed by fsync(2), and a write that the system cut short is undone.
 class row_writer {
  public:
   /// Opens `path` for appending and creates the folders above it. Throws pairsum::error with one

@@ -31,7 +31,7 @@ inline std::vector<double> holm_adjusted(std::span<const double> p_values) {
   return adjusted;
 }
 
-/// What a ratio base/other says of the other: is it faster than its base?
+/// The verdict on a ratio base/other: is the other faster than its base?
 enum class ratio_verdict { faster, slower, not_resolved };
 
 constexpr std::string_view word_of(ratio_verdict v) {

@@ -59,7 +59,7 @@ class unpacker {
  private:
   const char* take(std::size_t count, std::size_t each = 1) {
     if (count > (bytes_.size() - at_) / each)
-      throw error("the store that the processes of a study share holds a cut record");
+      throw error("the store that the processes of a study share holds a truncated record");
     const char* const from = bytes_.data() + at_;
     at_ += count * each;
     return from;

@@ -1,7 +1,7 @@
 // One half-stencil sweep by all threads at once, every update atomic:
 //
 //   parallel for fluid cells B:
-//     for i in B, for j in reach of i in B (later ones) and in its forward neighbours:
+//     for i in B, for j within H of i in B (later ones) and in its forward neighbours:
 //       c = f(i, j);  u_i += c.to_i in registers;  atomically u_j += c.to_j
 //     atomically u_i += its sum
 //

@@ -10,8 +10,8 @@
 //                                                           u_i += f(i,j), u_j += f(j,i)
 //
 // Race-free: of two tasks that write to a common cell one waits for the other. Edges ascend, so there is no cycle and
-// no task waits for ever; no path is longer than there are colours, and nobody waits for a whole pass. The order in
-// which blocks add to a particle is that of the edges, whoever runs them: bit-identical for every number of threads.
+// no deadlock; no path is longer than the number of colours, and no task waits for a whole pass. The order in
+// which blocks add to a particle is that of the edges, on any thread: bit-identical for every number of threads.
 #include <memory>
 #include <pairsum/core/tbb_arena.hpp>
 #include <pairsum/core/tbb_graph.hpp>

@@ -2,7 +2,7 @@
 //
 //   zero:    every copy u^t = 0                                 each thread its own
 //   sum:     parallel for fluid cells B, by thread t:
-//              for i in B, for j in reach of i in B and forward:   c = f(i, j);  u^t_i += c.to_i;  u^t_j += c.to_j
+//              for i in B, for j within H of i in B and forward:   c = f(i, j);  u^t_i += c.to_i;  u^t_j += c.to_j
 //   reduce:  u = u^0 + u^1 + ... + u^(T-1)                      parallel over particles
 //
 //      u^0 [#########..............]        all of it is zeroed and added up, whatever a thread touched: memory and

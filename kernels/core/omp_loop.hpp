@@ -23,11 +23,11 @@ void omp_region(int threads, F&& f) {
   check_team(threads, got);
 }
 
-/// A pass inside an OpenMP region, with its marks: f(0) .. f(n-1), shared out as `g` says. All threads of the region
+/// A pass inside an OpenMP region, with its marks: f(0) .. f(n-1), distributed as `g` says. All threads of the region
 /// call it, and leave it together, when all are done.
 template <class F>
 void omp_pass(unsigned pass, std::size_t n, const granularity& g, const pass_marks& marks, int thread, F&& f) {
-  // A function of its own, or each of the loops below would hold a copy of what it does.
+  // A separate function, or each of the loops below would hold a copy of it.
   const auto unit = [&](std::size_t k) __attribute__((noinline)) {
     marks.unit_begins(pass, k);
     f(k);

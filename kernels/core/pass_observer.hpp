@@ -3,9 +3,9 @@
 
 namespace pairsum {
 
-/// Told when the passes of a parallel sum, and each thread's work in them, begin and end: what a caller needs to see
-/// how long threads work and how long they wait at the barrier after a pass. The library has no clock; the observer
-/// has. Calls of one thread come in order; those of different threads come at the same time.
+/// Notified when the passes of a parallel sum, and each thread's work in them, begin and end, so that a caller can
+/// measure how long threads work and how long they wait at the barrier after a pass. The library has no clock; the
+/// observer has one. Calls of one thread come in order; those of different threads come at the same time.
 class pass_observer {
  public:
   virtual ~pass_observer() = default;
@@ -15,11 +15,11 @@ class pass_observer {
   virtual void pass_ends(unsigned pass) = 0;                ///< by the caller's thread, when all are done
   /// Does it want to know of every unit of work? Asked once per sum.
   virtual bool wants_units() const { return false; }
-  /// Unit k of a pass, what one thread does without asking others, begins.
+  /// Unit k of a pass (what one thread does without synchronisation) begins.
   virtual void unit_begins(unsigned /*pass*/, std::size_t /*k*/) {}
 };
 
-/// Hands marks to an observer, if there is one.
+/// Passes marks to an observer, if there is one.
 class pass_marks {
  public:
   pass_marks() = default;

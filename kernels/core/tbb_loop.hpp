@@ -17,7 +17,7 @@ template <class F>
 void tbb_pass(unsigned pass, std::size_t n, const granularity& g, const pass_marks& marks, F&& f) {
   using range = ::tbb::blocked_range<std::size_t>;
   const range all(0, n, std::max<std::size_t>(g.chunk, 1));
-  const auto piece = [&](const range& r) __attribute__((noinline)) {  // for the reason told in omp_loop.hpp
+  const auto piece = [&](const range& r) __attribute__((noinline)) {  // for the reason given in omp_loop.hpp
     const int thread = ::tbb::this_task_arena::current_thread_index();
     marks.work_begins(pass, thread);
     for (std::size_t k = r.begin(); k < r.end(); ++k) {

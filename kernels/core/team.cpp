@@ -35,8 +35,7 @@ void check_team(int threads, int got) {
 
 void check_prepared(int threads, const team& t) {
   if (t.threads() > threads)
-    throw error("prepared for " + std::to_string(threads) + " threads, but to be summed on " +
-                std::to_string(t.threads()));
+    throw error("prepared for " + std::to_string(threads) + " threads, but summed on " + std::to_string(t.threads()));
   const int arena = t.kind() == runtime::tbb ? t.arena().arena.max_concurrency() : t.threads();
   if (arena > t.threads())
     throw error("a team of " + std::to_string(t.threads()) + " oneTBB threads has an arena of " +

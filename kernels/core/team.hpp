@@ -15,7 +15,7 @@ constexpr std::string_view name_of(runtime r) {
   return r == runtime::serial ? "serial" : r == runtime::omp ? "omp" : "tbb";
 }
 
-/// How a parallel loop is shared out: OpenMP's schedules (dynamic, fixed, guided) or oneTBB's partitioners (automatic,
+/// How a parallel loop is distributed: OpenMP's schedules (dynamic, fixed, guided) or oneTBB's partitioners (automatic,
 /// simple, fixed).
 enum class loop_schedule { none, dynamic, fixed, guided, automatic, simple };
 
@@ -41,7 +41,7 @@ class index_function {
   void (*call_)(void*, std::size_t);
 };
 
-/// The threads a call may use, handed in by the caller: a number for OpenMP (`num_threads`), an arena for oneTBB. The
+/// The threads a call may use, passed in by the caller: a number for OpenMP (`num_threads`), an arena for oneTBB. The
 /// library never starts threads of its own accord.
 class team {
  public:

@@ -37,8 +37,7 @@ constexpr T absolute(T a) {
   return a < T(0) ? -a : a;
 }
 
-/// a*b + c, rounded once where the hardware does so at full speed and twice elsewhere; never left to the compiler's
-/// mood.
+/// a*b + c, rounded once where the hardware does so at full speed and twice elsewhere; never left to the compiler.
 inline double fused(double a, double b, double c) {
 #ifdef __FP_FAST_FMA
   return __builtin_fma(a, b, c);

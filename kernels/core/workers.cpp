@@ -8,7 +8,7 @@
 namespace pairsum {
 
 workers::workers(runtime kind, int threads) : team_(team::omp(threads)) {
-  if (threads < 1) throw error("a team needs at least 1 thread, is asked for " + std::to_string(threads));
+  if (threads < 1) throw error("a team needs at least 1 thread, got " + std::to_string(threads));
   if (kind != runtime::tbb) return;
   arena_ = std::make_unique<tbb_arena>(threads);
   team_ = team::tbb(threads, *arena_);

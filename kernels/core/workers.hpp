@@ -5,7 +5,7 @@
 
 namespace pairsum {
 
-/// A team with what it needs to live: threads for whoever has none to hand in. Keep it while its team works.
+/// Owns the threads of a team, for callers without threads of their own. Keep it while its team works.
 class workers {
  public:
   /// `threads` threads of that kind, at least 1 (else pairsum::error); serial backends index with OpenMP threads and

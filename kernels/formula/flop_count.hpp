@@ -8,8 +8,8 @@
 
 namespace pairsum {
 
-/// The operations a formula was seen to make, so that those which some of its results need can be counted: what a
-/// compiler keeps when it drops what nobody uses.
+/// The operations that a formula made, so that those needed for some of its results can be counted: what a compiler
+/// keeps when it removes dead code.
 class flop_tape {
  public:
   /// A new operation of so many flops on the results of earlier ones (-1: none); returns its number.

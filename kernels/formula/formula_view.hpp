@@ -4,7 +4,7 @@
 
 namespace pairsum {
 
-/// A formula with the columns that its particles bring to pairs: what problem::formula points to.
+/// A formula with the columns that its pairs read: what problem::formula points to.
 template <class I>
 struct formula_view {
   const I* formula;

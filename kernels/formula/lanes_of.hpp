@@ -8,13 +8,13 @@
 
 namespace pairsum {
 
-/// Interaction I on the vector units that this machine runs, best first. The library's own have them for every set that
-/// was built, compiled apart (formula/formulas.hpp); one's own for the set that its source is compiled for
-/// (vector/own_lanes.hpp).
+/// Interaction I on the vector units that this machine runs, best first. The library's interactions have them for
+/// every set that was built, compiled separately (formula/formulas.hpp). A user's own interaction has them for the set
+/// that its source is compiled for (vector/own_lanes.hpp).
 template <class I>
 std::vector<lane_sum<I::dim, typename I::real>> lanes_of();
 
-/// What vector units need besides: functions on rates in rows. For code that no instruction set is asked of.
+/// What vector units need besides: functions on rates in rows. This code needs no instruction set.
 template <class I>
 struct row_rates {
   static constexpr int D = I::dim;
@@ -40,7 +40,7 @@ struct row_rates {
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t s = 0; s < to.size(); ++s) to[s][i] = at(rows, i)[s];
   }
-  /// All lines of the rows, for which are read depends on who is in reach. Rows may lie across lines (mixed ones do).
+  /// All cache lines of the rows, since hits decide which are read. Rows may straddle lines (mixed ones do).
   PAIRSUM_SAME_CODE static void fetch(const problem<D, R>& p, const std::uint32_t* cell, unsigned n,
                                       const rate_view* rates) {
     constexpr std::size_t line = 64;

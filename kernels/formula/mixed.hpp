@@ -9,8 +9,9 @@ namespace pairsum {
 
 /// Interaction I in mixed precision: state, derived terms and sums in I's double, the terms of fluid pairs in float.
 /// For vector backends, which pack pairs of float into a vector and half the bytes into a row; boundary terms are
-/// evaluated in double. Positions enter as whole numbers of which at least 2^28 make a reach, so that x_i - x_j, exact
-/// until it becomes a float, does not lose digits far from the origin. Which pairs interact is decided in double.
+/// evaluated in double. Positions are fixed-point numbers with at least 2^28 steps per support radius, so that x_i -
+/// x_j, exact until it becomes a float, does not lose digits far from the origin. Which pairs interact is decided in
+/// double.
 template <class I>
 struct mixed : I {
   static_assert(std::is_same_v<typename I::real, double>);

@@ -24,14 +24,13 @@ constexpr bool made_of() {
 }
 }  // namespace row_detail
 
-/// Do lanes carry everything interaction I brings to a pair and takes from it? Whole numbers are summed one pair at a
-/// time.
+/// Can lanes hold all data and rates of interaction I? Whole numbers are summed one pair at a time.
 template <class I>
 inline constexpr bool takes_lanes = row_detail::made_of<particle_of<I>, typename I::real>() &&
                                     row_detail::made_of<boundary_particle_of<I>, typename I::real>() &&
                                     row_detail::made_of<rates_of<I>, typename I::real>();
 
-/// A particle of I as a row: its position and the fields it brings to a pair, then, from rates_at on, its rates.
+/// A particle of I as a row: its position and the fields that a pair needs, then, from rates_at on, its rates.
 template <class I>
 struct row_layout {
   using real = typename I::real;

@@ -99,8 +99,8 @@ struct sum_rows {
       u.store(r->i, sum_row(c.p, f, *r, [](std::uint32_t, const S&) __attribute__((always_inline)){}));
   }
 
-  /// The first and last of a cell's fluid: its columns are a cache line or two each. (Compilers may not look into it: a
-  /// function that does nothing else has no effect for g++, which leaves out its calls.)
+  /// The first and last of a cell's fluid: its columns are a cache line or two each. (Not inlined: g++
+  /// takes a function that does nothing else for one without effect and drops its calls.)
   template <bool with_rates>
   [[gnu::always_inline]] static void fetch_cells(const P& p, const std::uint32_t* cell, unsigned n,
                                                  const rate_view* rates) {

@@ -36,7 +36,7 @@ template <int D, class R>
 cell_box<D> occupied_box(const particle_set<D, R>& p, std::size_t begin, std::size_t end, const box<D, R>& omega,
                          const cell_scale<D, R>& scale, const team& t);
 
-/// The box around all of them from step to step; looks again only at those that may have moved.
+/// The box around all of them from step to step; tests again only those that may have moved.
 template <int D, class R>
 class box_follower {
  public:
@@ -50,7 +50,7 @@ class box_follower {
 };
 
 /// Numbers the cells of a box, x fastest, with an empty cell around: so the 3^D cells around any cell of the box have
-/// numbers of their own, and no number wraps round an edge. Or those of a torus, which has nothing around.
+/// numbers of their own, and no number wraps around an edge. Or the cells of a torus, without empty ones around.
 template <int D>
 class linear_cells {
  public:

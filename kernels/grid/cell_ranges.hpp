@@ -10,7 +10,7 @@ namespace pairsum {
 template <int D, class R>
 class grid;
 
-/// Describes the cells of sorted particles: where each begins and ends, and who its neighbours are.
+/// Describes the cells of sorted particles: begin, end and neighbours of each.
 template <int D>
 class cell_ranges {
  public:

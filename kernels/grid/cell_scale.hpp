@@ -23,7 +23,7 @@ R safe_width(const box<D, R>& omega, R H) {
   return H * (1 + 8 * u + (omega.periodic ? 24 : 12) * u * t_max);
 }
 
-/// How many cells go round a periodic box along each axis: as many as are no narrower than is safe, a multiple of
+/// The number of cells of a periodic box along each axis: as many as are no narrower than is safe, a multiple of
 /// `multiple` (an even number), 0 where 4 do not fit.
 ///
 /// H alone is safe where coordinates are exact: H a power of two and the low face at 0. Then x/H has no rounding, and

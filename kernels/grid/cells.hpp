@@ -10,7 +10,7 @@ namespace pairsum {
 
 /// A contiguous range of particle indices.
 struct index_range {
-  std::uint32_t begin, end;  // left to whoever makes room for many: a sum does so for each unit
+  std::uint32_t begin, end;  // uninitialised: a sum makes room for many in each unit
   std::uint32_t size() const { return end - begin; }
   bool empty() const { return begin == end; }
 };
@@ -20,7 +20,7 @@ struct cell_range {
   index_range fluid{0, 0}, boundary{0, 0};
 };
 
-/// What a grid tells the backends, as plain data, whatever the grid: only non-empty cells exist.
+/// A grid as plain data for the backends, the same for every grid: only non-empty cells exist.
 ///
 /// Cell 0 is the empty cell that stands for every cell without particles. Cells 1..fluid_cells hold fluid (and perhaps
 /// boundary), the remaining ones boundary alone: they never open a loop, and so cost nothing.
@@ -34,7 +34,7 @@ struct cells {
   column<ivec<D>> place;             ///< coordinates of the fluid cell, not negative; folded ones on a torus
   ivec<D> period{};                  ///< cells of a grid that closes on itself, per component, even; 0: it does not
   vec<D, double> low, per_metre;     ///< a cell's coordinates are floor((x - low) per_metre), in the working precision
-  std::uint64_t revision = 0;        ///< another one whenever cells or their neighbours are others than before
+  std::uint64_t revision = 0;        ///< changes whenever cells or their neighbours change
   std::size_t fluid_cells = 0;
   std::size_t total = 0;  ///< cells of the grid, empty ones included where it has them
 

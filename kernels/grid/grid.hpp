@@ -9,9 +9,8 @@
 
 namespace pairsum {
 
-/// What a grid has to say: the key of a particle's cell, and which cells are neighbours. Everything else (sorting,
-/// ranges) is the indexer's; a grid is asked once per step and piece of the particles, so its virtual calls cost
-/// nothing.
+/// A grid: the key of a particle's cell, and which cells are neighbours. Everything else (sorting, ranges) belongs to
+/// the indexer. A grid is called once per step and piece of the particles, so its virtual calls cost nothing.
 template <int D, class R>
 class grid {
  public:
@@ -19,7 +18,7 @@ class grid {
 
   /// Looks at the particles before keys(), for grids whose cells depend on them; those outside Omega and lost ones do
   /// not count. Only the first `moved` may be others than in the last call. Returns whether keys mean other cells than
-  /// before: if not, whoever kept its cell keeps its key.
+  /// before: if not, particles that kept their cell keep their key.
   virtual bool adapt(const particle_set<D, R>&, [[maybe_unused]] std::size_t moved, const team&) { return false; }
   /// How it turns positions into coordinates of cells.
   virtual const cell_scale<D, R>& scale() const = 0;

@@ -14,17 +14,17 @@ namespace pairsum {
 /// ascending cell key, so that a cell's fluid and a cell's boundary are contiguous, and so are those of cells with
 /// consecutive keys.
 ///
-/// The order is that of a stable sort of the particles as they were handed in, for every team, however it is come by: a
-/// build after the first looks at the fluid alone, moves only what the particles that changed their cell push aside,
-/// and if there is none leaves everything as it is.
+/// The order is that of a stable sort of the particles as they were passed in, for every team. A build after the first
+/// tests the fluid alone and shifts only what the particles that changed their cell displace; if there are none, it
+/// changes nothing.
 template <int D, class R>
 class indexer {
  public:
   indexer(const box<D, R>& omega, std::unique_ptr<grid<D, R>> g) : omega_(omega), grid_(std::move(g)) {}
 
-  /// Particles that are outside Omega (or NaN) become `lost`; in a periodic box they come back through the opposite
-  /// face, and only what is not finite is lost. From build to build the particles stay in their order and boundary
-  /// where it is; else call forget() in between.
+  /// Particles that are outside Omega (or NaN) become `lost`; in a periodic box they re-enter through the opposite
+  /// face, and only positions that are not finite are lost. From build to build the particles stay in their order and
+  /// boundary where it is; else call forget() in between.
   void build(particle_set<D, R>& p, const team& t);
 
   /// Other particles come, or boundary was moved: the next build looks at all of them.

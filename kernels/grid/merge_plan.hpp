@@ -15,7 +15,7 @@ struct mover {
   std::uint32_t from, key;
 };
 
-/// Sorts anew what was sorted before, after few keys changed: those that stayed keep their order and shift in place,
+/// Restores the order of sorted keys after few of them changed: those that stayed keep their order and shift in place,
 /// movers are taken out and put in between. The result is that of a stable sort of everything, to the last particle,
 /// for every team; the cost is one pass over what shifts instead of several over all.
 class merge_plan {

@@ -34,7 +34,7 @@ std::string edges_text(const box<D, R>& omega, R H) {
   return text;
 }
 
-/// Throws pairsum::error if fewer than 4 cells go round a periodic box, which has them; else returns how many.
+/// Throws pairsum::error if fewer than 4 cells fit along an axis of a periodic box; else returns how many.
 template <int D, class R>
 ivec<D> check_periodic(const box<D, R>& omega, R H) {
   if (!omega.periodic) return {};

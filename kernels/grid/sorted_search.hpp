@@ -41,8 +41,8 @@ void connect_sorted(std::span<const Place> sorted, std::span<const std::uint32_t
 }
 
 /// The same for a torus of `period` cells, places of the fluid cells being set: place(at) is what the cell with
-/// coordinates `at` is in `sorted`. Rows that do not go through a face ascend as in connect_sorted(), but when a finger
-/// jumps back to the first cells it starts anew; cells of the others are looked up one by one.
+/// coordinates `at` is in `sorted`. Rows that do not go through a face ascend as in connect_sorted(), but when a
+/// pointer jumps back to the first cells it starts again; cells of the others are looked up one by one.
 template <int D, class Place, class Make>
 void connect_sorted_torus(const ivec<D>& period, std::span<const Place> sorted, std::span<const std::uint32_t> number,
                           cells<D>& c, const team& t, Make&& place) {

@@ -6,9 +6,8 @@
 
 namespace pairsum {
 
-/// Says of a grid of `period` cells per axis that closes on itself where its fluid cells are and who their neighbours
-/// are: place_of(c) is where fluid cell c is, part(d, a) what coordinate a along axis d adds to a cell's key,
-/// table[key] the cell.
+/// Positions and neighbours of the fluid cells of a grid of `period` cells per axis that closes on itself: place_of(c)
+/// is where fluid cell c is, part(d, a) what coordinate a along axis d adds to a cell's key, table[key] the cell.
 template <int D, class Place, class Part>
 void connect_torus(const ivec<D>& period, const std::uint32_t* table, cells<D>& c, const team& t, Place&& place_of,
                    Part&& part) {

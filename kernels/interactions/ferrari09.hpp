@@ -66,7 +66,7 @@ class ferrari09 {
   template <class T>
   contributions<rates<T>> pair_at(const T& distance, const vec<D, T>& r, const T&, const particle<T>& i,
                                   const particle<T>& j) const {
-    // What does not need F is done first: F waits for a root, and so a pair is through soon after.
+    // What does not need F comes first: F waits for a square root, and little remains to be done after it.
     const vec<D, T> v = i.v - j.v, p_r = (i.p_rho2 + j.p_rho2) * r;
     const T divergence = v.dot(r), flux = maximum(i.c, j.c) * (j.rho - i.rho) * distance;
     const T F = W_.slope_over_r(distance), F_i = j.m * F, F_j = i.m * F;

@@ -38,7 +38,7 @@ struct pair_flops {
   bool operator==(const pair_flops&) const = default;
 };
 
-/// What a particle brings of which only the place matters.
+/// The data of a particle of which only the position matters.
 struct nothing {
   static constexpr auto fields() { return std::tuple<>{}; }
 };
@@ -64,7 +64,7 @@ concept has_boundary = requires {
 ///
 ///   name, dim, real        the word for it, the dimension, the working precision
 ///   I(physics)             takes the constants
-///   particle<T>            what a fluid particle brings to a pair, derived once per summation by derive()
+///   particle<T>            the data of a fluid particle that a pair needs, derived once per summation by derive()
 ///   rates<T>               what is summed. Both are structs with fields(), or a single scalar or vec (core/fields.hpp)
 ///   rate_name              the rates' name if they are a single scalar or vec; a struct has `names`
 ///   pair(r, r2, i, j)      both contributions of a fluid pair; r = x_i - x_j, r2 = r.r < H^2; a backend that wants one
@@ -72,16 +72,16 @@ concept has_boundary = requires {
 ///
 /// and, if boundary particles act on fluid particles (see has_boundary),
 ///
-///   boundary_particle<T>   what a boundary particle brings, by derive_boundary()
+///   boundary_particle<T>   the data of a boundary particle, by derive_boundary()
 ///   boundary(r, r2, i, b)  what boundary particle b adds to fluid particle i, for r2 < (boundary_reach H)^2
 ///   boundary_reach         in (0, 1]
 ///   boundary_is_singular   true if there is no finite force at r = 0: such particles are refused
 ///
-/// and, for formulas that take a root (vector backends then take it ahead of the rest, which waits for it),
+/// and, for formulas that take a square root (vector backends then take it early, since the rest waits for it),
 ///
 ///   pair_at(distance, r, r2, i, j)   pair() for distance = |r|
 ///
-/// and, to be held to it by a test,
+/// and, to be checked by a test,
 ///
 ///   flops                  pair_flops of the formula
 template <class I>
@@ -110,7 +110,7 @@ struct boundary_particle<I, T> {
 };
 }  // namespace interaction_detail
 
-/// Reach of boundary particles in units of H; 0 if they do not act.
+/// Cutoff of boundary particles in units of H; 0 if they do not act.
 template <class I>
 constexpr double boundary_reach() {
   if constexpr (has_boundary<I>)

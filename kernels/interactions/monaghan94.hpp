@@ -36,7 +36,7 @@ class monaghan94 {
     }
   };
   template <class T>
-  using boundary_particle = nothing;  // its place is all that matters
+  using boundary_particle = nothing;  // only its position matters
   template <class T>
   struct rates {
     T drho;        ///< kg/(m3 s)

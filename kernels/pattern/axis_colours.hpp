@@ -4,7 +4,7 @@
 namespace pairsum::pattern {
 
 /// Colours along one axis of cells such that two of the same colour are at least `spacing` apart: 0 1 2 0 1 2 ... for a
-/// spacing of 3. On an axis that closes on itself after `period` cells (0: it does not) the pattern must go round. If
+/// spacing of 3. On an axis that closes on itself after `period` cells (0: it does not) the pattern must fit around. If
 /// the spacing does not divide the period, as 3 does not divide 2^M, it starts with runs that are one colour longer,
 /// the seam, as many as the remainder:
 ///
@@ -26,7 +26,7 @@ constexpr unsigned axis_colours(std::int64_t period, std::int64_t spacing) {
 }
 
 namespace checks {
-/// Are equal colours never closer than the spacing, going round?
+/// Are equal colours never closer than the spacing, around the end too?
 constexpr bool apart(std::int64_t period, std::int64_t spacing) {
   for (std::int64_t a = 0; a < period; ++a)
     for (std::int64_t step = 1; step < spacing && step < period; ++step)

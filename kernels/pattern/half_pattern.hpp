@@ -4,7 +4,7 @@
 
 #include <pairsum/pattern/pattern.hpp>
 
-/// The talk's pattern for cells of half the reach: two cells up to two apart have pairs, so a base block has 3^d cells
+/// The talk's pattern for cells of half the cutoff: two cells up to two apart have pairs, so a base block has 3^d cells
 /// B + {0,1,2}^d, an offset's code being the sum of o_k 3^k, and two of them belong to this block (and to no other) if
 /// the smaller of their components is 0 along every axis.
 namespace pairsum::pattern {

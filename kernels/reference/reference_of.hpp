@@ -23,7 +23,7 @@ template <class I>
 class reference_of final : public reference {
   using R = typename I::real;
   using tracked = running_error<R, pair_real<I>>;  ///< in a pair
-  using own = running_error<R>;                    ///< in what a particle brings to it, and at the boundary
+  using own = running_error<R>;                    ///< in the data of a particle, and at the boundary
   static constexpr int D = I::dim;
   using rates = typename I::template rates<tracked>;
   static constexpr int slots = field_count<rates>;
@@ -52,7 +52,7 @@ class reference_of final : public reference {
   formula_costs costs() const override { return costs_of(formula_); }
 
  private:
-  /// The particles, rounded to R; what they bring to a pair is derived when it is asked for, or beforehand for all.
+  /// The particles, rounded to R; their data for pairs are derived on demand, or beforehand for all.
   struct input {
     const reference_of& f;
     const particle_table& table;
@@ -190,7 +190,7 @@ class reference_of final : public reference {
     return out;
   }
 
-  /// What a particle brings, each scalar put through f. (Whole numbers are none of f's business.)
+  /// The data of a particle, with f applied to each scalar (but not to whole numbers).
   template <class T, class Particle, class F>
   static typename I::template particle<T> each_as(const Particle& a, F&& f) {
     if constexpr (std::is_same_v<Particle, typename I::template particle<T>>) {

@@ -71,7 +71,7 @@ void count_cell_pairs(const cells<D>& c, const block<D>& members, work_counts& c
 }
 
 /// sumF1(B) and the sumF2 of the pattern, as b(d)+1 cell pairs grouped by their lower cell: particle i of cell j meets
-/// all later cells k with j & k == 0 in one go. Touches fluid particles of the block's cells and no others.
+/// all later cells k with j & k == 0 at once. Touches fluid particles of the block's cells and no others.
 template <int D, class R>
 void sum_block(const problem<D, R>& p, const block<D>& members, const target& to) {
   constexpr unsigned n = pattern::block_cells<D>;

@@ -51,7 +51,7 @@ bool goes_round(const cells<D>& c, int axes, int width) {
 }
 
 /// What a sweep has in use at a time: a brick with a rim; of a pencil, by rule of thumb, 4 cells of its length (all of
-/// it comes back row after row, but is asked for ahead).
+/// it returns row after row, but is prefetched).
 std::size_t cells_in_use(int dim, int axes, int width) {
   return (axes < dim ? 4 : 1) * power(static_cast<std::size_t>(width) + 2, axes);
 }

@@ -7,19 +7,19 @@
 
 namespace pairsum {
 
-/// What blocks that are chosen have to keep to.
+/// Limits for chosen blocks.
 struct block_limits {
-  std::size_t cells = 0;   ///< of a block and around it, at most, that are in use at a time
+  std::size_t cells = 0;   ///< of a block and around it that are in use at a time, at most
   std::size_t blocks = 0;  ///< of a colour, at least, on average
 };
 
 /// @param cache_bytes    of a core; 0: 1 MiB
 /// @param bytes_per_cell what a sum touches of a cell; half the cache is for that
-/// @param cores          6 blocks for each, so that a pass ends nearly together on all; 0: as the machine says
+/// @param cores          6 blocks for each, so that all finish a pass at about the same time; 0: those of the machine
 block_limits limits_of(std::size_t cache_bytes, std::size_t bytes_per_cell, std::size_t cores);
 
 /// The shape for these cells: the widest pencils (in 2D slabs) that keep to the limits, or else the widest bricks, or
-/// bricks of 2. Widths are powers of two, so that they go round every hashed grid and all grids have the same blocks.
+/// bricks of 2. Widths are powers of two, so that they fit every hashed grid and all grids have the same blocks.
 ///
 /// Pencils come first because their rows are whole: a million particles on one thread take, relative to brick:4,
 ///

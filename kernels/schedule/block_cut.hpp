@@ -4,8 +4,8 @@
 namespace pairsum {
 
 /// How blocks of `width` cells or more cut one axis of a grid. On a grid that closes on itself after `period` cells
-/// they go round in two colours: as many as are even and wide enough, cells shared out evenly, so that some are wider
-/// where the period is no multiple of 2 width.
+/// fit around in two colours: an even number of blocks that are wide enough, with cells distributed evenly, so that
+/// some are wider where the period is no multiple of 2 width.
 ///
 ///     period 10, width 2:   |0 1|2 3 4|5 6|7 8 9|  and 0 again
 class block_cut {
@@ -14,7 +14,7 @@ class block_cut {
   block_cut(std::int64_t width, std::int64_t period)
       : width_(width), period_(period), blocks_(period / (2 * width) * 2) {}
 
-  /// Do blocks of two colours go round?
+  /// Do blocks of two colours fit around?
   bool fits() const { return period_ == 0 || blocks_ > 0; }
   /// The block that a cell is in.
   std::int64_t block_of(std::int64_t cell) const {

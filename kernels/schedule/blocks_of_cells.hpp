@@ -4,22 +4,22 @@
 //   for each colour:                                     2^axes passes, a barrier between them
 //     parallel for blocks of the colour:
 //       for cell in block, for i in cell:
-//         hits = candidates of the own and the forward cells in reach, packed
+//         hits = candidates of the own and the forward cells within the cutoff, packed
 //         for vectors of hits j:  c = f(i, j);  u_i += c.to_i;  u_j += c.to_j
 //
 // Each pair once, both sides updated, lanes full of pairs that interact. Race-free: a block touches its cells and one
 // more on either side, and blocks of a colour are at least two cells apart (schedule/cell_blocks.hpp). Bit-identical
 // for every number of threads: neither blocks nor their colours depend on it.
 //
-// The gather on vector units, the fair opponent of tiles_*:
+// The gather on vector units, the baseline for tiles_*:
 //
 //   parallel for blocks of cells:
 //     for cell in block, for i in cell:
-//       hits = candidates of all 3^d cells in reach, packed
+//       hits = candidates of all 3^d cells within the cutoff, packed
 //       for vectors of hits j:  u_i += f(i, j).to_i
 //
-// Each pair twice. Race-free: a block writes the rates of its own particles alone, and each cell is in one block. The
-// blocks are those of tiles_*, for the cache's sake, in one pass.
+// Each pair twice. Race-free: a block writes only the rates of its own particles, and each cell is in one block. The
+// blocks are those of tiles_*, since they suit the cache, in one pass.
 #include <pairsum/schedule/block_setup.hpp>
 #include <pairsum/sum/prefetch.hpp>
 

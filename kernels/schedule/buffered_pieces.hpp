@@ -4,7 +4,7 @@
 //   prepare:  cut the cells into pieces; list the blocks of 64 particles that each piece writes to
 //   sum:      parallel for pieces:
 //               buffers of the piece = 0
-//               for i in piece, for j in reach of i, later in its cell or in a forward neighbour:
+//               for i in piece, for j within H of i, later in its cell or in a forward neighbour:
 //                 c = f(i, j), added to the buffer if another piece writes to the block, else to the rates
 //   reduce:   parallel for blocks with buffers:  u += the buffers, in the order of the pieces
 //

@@ -23,9 +23,9 @@ bool cell_blocks<D>::build(const cells<D>& c) {
   // On a torus colours must alternate all the way round.
   for (int d = D - axes; d < D && !one_pass_; ++d)
     if (!block_cut(shape_.width, c.period[d]).fits())
-      throw error("blocks of " + std::to_string(shape_.width) + " cells do not go round a torus of " +
+      throw error("blocks of " + std::to_string(shape_.width) + " cells do not fit around a torus of " +
                   std::to_string(c.period[d]) + " cells in two colours: they may be up to " +
-                  std::to_string(c.period[d] / 2) + " wide");
+                  std::to_string(c.period[d] / 2) + " cells wide");
   find_blocks(c, axes);
   begin_.assign(one_pass_ ? 1 : std::size_t{1} << axes, {});
   std::uint32_t position = 0;

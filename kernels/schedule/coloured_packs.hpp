@@ -18,8 +18,8 @@ namespace pairsum {
 ///
 /// Packs A have two colours, as a chessboard, packs B two more (in 2D one, which is enough; in 1D there are none): 4.
 /// The blocks of a pack reach one cell further, and as packs have no edges, packs of a colour do not meet. Where the
-/// pattern does not go round a torus (its side is no multiple of 8), and only there, a pack may find that its colour
-/// has been at one of its cells: then it takes another, so that what is said above holds on every grid.
+/// pattern does not fit around a torus (its side is no multiple of 8), and only there, a pack may find that its colour
+/// is in use at one of its cells. Then it takes another, so that the statement above holds on every grid.
 template <int D>
 class coloured_packs {
  public:

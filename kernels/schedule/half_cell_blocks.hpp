@@ -1,5 +1,5 @@
 #pragma once
-// The talk's passes on cells of half the reach, whose pairs are up to two cells apart:
+// The talk's passes on cells of half the cutoff, whose pairs are up to two cells apart:
 //
 //   prepare:  sort the particles by half cells
 //   for each colour:                                      (2+1)^d = 27 in 3D, 9 in 2D, 3 in 1D; a barrier after each
@@ -11,9 +11,9 @@
 //                           that of another block
 //
 // Less volume is searched, (5/2 H)^d in place of (3 H)^d, in more and smaller cells. Race-free: blocks of a colour
-// begin 3 half cells apart and are 3 wide (schedule/half_blocks.hpp); on a torus, whose 2^(M+1) half cells no 3
-// divides, those at the seam have colours of their own. Bit-identical for every number of threads: neither order nor
-// colours depend on it.
+// begin 3 half cells apart and are 3 wide (schedule/half_blocks.hpp); on a torus, whose 2^(M+1) half cells are
+// no multiple of 3, those at the seam have their own colours. Bit-identical for every number of threads: neither order
+// nor colours depend on it.
 #include <pairsum/pattern/half_pattern.hpp>
 #include <pairsum/schedule/half_blocks.hpp>
 #include <pairsum/schedule/half_cell_order.hpp>
@@ -26,7 +26,7 @@ template <int D, class R>
 class half_cell_blocks final : public schedule<D, R> {
   using P = problem<D, R>;
   static constexpr unsigned members = pattern::stencil_cells<D>;
-  static constexpr unsigned at_a_time = 8;  ///< meetings: of more, those made first have left the first cache
+  static constexpr unsigned at_a_time = 8;  ///< meetings: of more, the first ones would leave the first-level cache
 
  public:
   static constexpr backend_traits traits{.description = "the talk's passes on cells of half the width",

@@ -3,15 +3,15 @@
 //
 //   for each colour:                                      18 in 3D, 6 in 2D, 2 in 1D; a barrier after each
 //     parallel for cells B of the colour:
-//       for i in B, for j in reach of i in B (later ones) and in the forward neighbours:
+//       for i in B, for j within H of i in B (later ones) and in the forward neighbours:
 //         c = f(i, j);  u_i += c.to_i;  u_j += c.to_j
 //
 //     ^ ^ ^  ^ ^ ^  ^ ^ ^        2D: what the cells B of one colour write to,
 //     . B >  . B >  . B >        3 cells by 2 for each
 //
-// Race-free: the sets of cells that two cells of a colour write to do not meet (schedule/coloured_cells.hpp); on a
-// torus, whose 2^M cells no 3 divides, cells at the seam have colours of their own. Bit-identical for every number of
-// threads: neither colours nor the order in a cell depend on it.
+// Race-free: the sets of cells that two cells of a colour write to are disjoint (schedule/coloured_cells.hpp); on a
+// torus, whose 2^M cells are no multiple of 3, cells at the seam have their own colours. Bit-identical for every number
+// of threads: neither colours nor the order in a cell depend on it.
 #include <pairsum/schedule/cell_sweep.hpp>
 #include <pairsum/schedule/coloured_cells.hpp>
 

@@ -7,11 +7,11 @@
 //                      for i in block, for j in row i with |x_i - x_j| < H:
 //                        c = f(i, j);  u_i += c.to_i;  u_j += c.to_j
 //
-//        H + s  : listed        two particles that are not listed were H + s apart, and each has come nearer by s/2
-//        (  H  )  : summed      at most: they are still out of reach
+//        H + s  : listed        two particles that are not listed were H + s apart, and each has come closer by s/2
+//        (  H  )  : summed      at most: they are still beyond the cutoff
 //
-// While the list lives particles keep their order, so nothing is sorted. Race-free and bit-identical for every number
-// of threads, as row_lists.hpp says: rows and blocks are those of the cells the list was made from.
+// While the list is valid particles keep their order, so nothing is sorted. Race-free and bit-identical for every
+// number of threads, as row_lists.hpp says: rows and blocks are those of the cells the list was made from.
 #include <cmath>
 
 #include <pairsum/schedule/displacement.hpp>

@@ -11,13 +11,13 @@ namespace pairsum {
 /// grid, so they follow each other; in 1D they are one cell.
 ///
 /// A half stencil goes from a layer to itself and to the next one, never back: the codes above the middle are those
-/// whose last step is +1, or 0 with the rest above the middle. So whoever sweeps layers [a, b) writes to layers a..b.
+/// whose last step is +1, or 0 with the rest above the middle. So a sweep of layers [a, b) writes to layers a..b.
 struct cell_layer {
   std::int64_t at;
   std::uint32_t begin, end;
 };
 
-/// How many layers go round a grid that closes on itself along the last axis; 0: it does not.
+/// The number of layers around a grid that closes on itself along the last axis; 0: it does not.
 template <int D>
 std::int64_t layers_around(const cells<D>& c) {
   return c.period[D - 1];

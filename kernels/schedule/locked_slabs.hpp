@@ -12,9 +12,9 @@
 //
 // Race-free: layer b is written in the sweeps of layers b-1 and b alone, both under lock(b); all other layers of a slab
 // by its thread alone. Threads start with their first layer and end with their last, so that they seldom wait. A slab
-// of one layer holds both locks; locks are taken in ascending order, so nobody waits in a ring, not even where the grid
-// closes on itself and the last slab's neighbour is the first. Which of two slabs adds first to layer b is left to
-// chance, and there are as many slabs as threads: not bit-identical.
+// of one layer holds both locks; locks are taken in ascending order, so there is no deadlock, not even where the grid
+// closes on itself and the last slab's neighbour is the first. Two slabs add to layer b in any order, and there are as
+// many slabs as threads: not bit-identical.
 #include <pairsum/core/omp_locks.hpp>
 #include <pairsum/core/omp_loop.hpp>
 #include <pairsum/schedule/cell_sweep.hpp>
@@ -57,7 +57,7 @@ class slabs_with : public schedule<D, R> {
  private:
   /// On any number of threads: no slab waits for one that has not begun.
   void sweep(const P& p, std::size_t k, int thread, const pass_marks& marks) {
-    const auto wait = [&](auto&& until_free) {  // no work, for who observes
+    const auto wait = [&](auto&& until_free) {  // counts as waiting for the observer
       marks.work_ends(0, thread);
       until_free();
       marks.work_begins(0, thread);

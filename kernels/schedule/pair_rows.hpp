@@ -36,7 +36,7 @@ class pair_rows {
  public:
   const row* data() const { return rows_.data(); }
 
-  /// All pairs nearer than the cutoffs of the space, whose order is that of the particles. The same rows for every
+  /// All pairs closer than the cutoffs of the space, whose order is that of the particles. The same rows for every
   /// team.
   void build(const problem<D, R>& p, const search_space<D, R>& space, const team& t, work_counts* counts) {
     rows_.resize(p.fluid_count);
@@ -63,8 +63,8 @@ class pair_rows {
     row* rows;
     list_pool* pool;
   };
-  /// Copies rows. Vector units may hand on a particle's fluid partners in several rows, and its boundary partners
-  /// apart.
+  /// Copies rows. Vector units may pass a particle's fluid partners in several rows, and its boundary partners
+  /// separately.
   static void keep(const void* call, const row* rows, std::size_t n) {
     const auto& to = *static_cast<const keeper*>(call);
     for (std::size_t k = 0; k < n; ++k) {

@@ -2,7 +2,7 @@
 // The talk's passes without barriers between them (its author's unpublished variant): each pass adds to a copy of the
 // rates of its own, so that passes may run at the same time:
 //
-//   for o in {0,1}^d:                                    2^d passes; who is done with one begins the next
+//   for o in {0,1}^d:                                    2^d passes; a thread that finishes one begins the next
 //     parallel for base cells B = 2i + o:
 //       u^o = 0 for the particles of the block B + {0,1}^d
 //       sumF1(B), sumF2(B+j, B+k) as in symmetric_omp, adding to u^o
@@ -11,7 +11,7 @@
 //
 // Race-free: blocks of a pass share no cell, and passes share no copy. Every cell with fluid lies in exactly one block
 // of each pass, so a block can zero its particles itself, while they are in the cache. Bit-identical for every number
-// of threads: a block adds up its pairs alone, and copies are joined in the order of the passes.
+// of threads: one thread sums each block, and copies are reduced in the order of the passes.
 #include <algorithm>
 
 #include <pairsum/schedule/block.hpp>

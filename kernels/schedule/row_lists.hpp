@@ -26,7 +26,7 @@ class row_blocks : public schedule<D, R> {
   using P = problem<D, R>;
 
  public:
-  /// `tested`: the list holds pairs that are out of reach, too.
+  /// `tested`: the list also holds pairs beyond the cutoff.
   explicit row_blocks(bool tested) : tested_(tested) {}
 
   void configure(const setup& s, std::size_t cell_bytes) override { shape_blocks(blocks_, s, cell_bytes); }
@@ -74,7 +74,7 @@ class row_lists final : public row_blocks<D, R> {
   }
 };
 
-/// The same in one go.
+/// The same on one thread.
 template <int D, class R>
 class row_after_row final : public schedule<D, R> {
   using P = problem<D, R>;

@@ -12,7 +12,7 @@ namespace pairsum {
 struct backend_traits {
   std::string_view name = {};         ///< file = CLI word = JSON value = legend
   std::string_view description = {};  ///< one line
-  std::string_view aliases = {};      ///< what the field calls it
+  std::string_view aliases = {};      ///< names used elsewhere
   runtime threads = runtime::serial;  ///< whose threads it runs on
   bool symmetric = true;              ///< each pair computed once, both particles updated
   bool deterministic = true;          ///< bit-identical for every number of threads

@@ -6,12 +6,12 @@ namespace pairsum {
 /// How a backend keeps two threads from writing to one particle at a time.
 enum class conflict_avoidance {
   serial,   ///< one thread
-  gather,   ///< a thread writes its own particles alone, and computes pairs with others' a second time
-  colours,  ///< what is done at a time shares no particle; barriers between colours
+  gather,   ///< a thread writes only its own particles; pairs between threads are computed twice
+  colours,  ///< units that run together share no particle; barriers between colours
   atomics,  ///< every addition is atomic
-  copies,   ///< threads or passes add to copies of the rates, which are joined
+  copies,   ///< threads or passes add to private copies of the rates, which are reduced
   locks,    ///< particles or cells are locked while they are added to
-  tasks,    ///< tasks that would share particles wait for each other
+  tasks,    ///< conflicting tasks wait for each other
 };
 
 inline constexpr std::string_view name_of(conflict_avoidance c) {

@@ -26,7 +26,7 @@ struct lane_sum {
   std::size_t lanes;  ///< pairs in a vector
   bool fuses;         ///< rounds a*b + c once
   pair_sum<D, R> pairs;
-  /// Brings the rates of rows to columns.
+  /// Copies the rates of rows to columns.
   void (*to_columns)(const rate_view& rows, const rate_view& columns, std::size_t begin, std::size_t end) = nullptr;
 };
 
@@ -34,14 +34,14 @@ struct any_formula {
   virtual ~any_formula() = default;
 };
 
-/// An interaction with its smoothing kernel, with columns for what particles bring to a pair and for their rates: what
-/// the rest of the library sees of it.
+/// An interaction with its smoothing kernel, and columns for the data of particles and for their rates: what the rest
+/// of the library sees of it.
 template <int D, class R>
 class formula : public any_formula {
  public:
   /// Throws pairsum::error for particles that it cannot sum.
   virtual void check(const particle_table&, const setup&) const {}
-  /// Derives what boundary [fluid, fluid + boundary) and, unless rows are filled instead, fluid [0, fluid) bring.
+  /// Derives what boundary [fluid, fluid + boundary) and, unless rows are filled instead, fluid [0, fluid) need.
   virtual void derive(const particle_set<D, R>& p, std::size_t fluid, std::size_t boundary, const team& t,
                       bool with_fluid) = 0;
   /// Lets the problem point to the formula, its columns and its scalar functions; sets the cutoff of the boundary.

@@ -19,7 +19,7 @@ bool grid_takes_M(std::string_view grid);
 template <int D, class R>
 std::unique_ptr<grid<D, R>> make_grid(const setup& s);
 
-/// Does the grid that `s` names go round the periodic box of `s`, in every precision?
+/// Does the grid that `s` names fit the periodic box of `s`, in every precision?
 bool grid_fits(const setup& s);
 
 /// The setup, for cells that are wider by a skin, in units of H.

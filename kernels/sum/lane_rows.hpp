@@ -15,12 +15,12 @@ struct lane_layout {
   std::size_t value = 0;         ///< of a value
   bool mixed = false;            ///< values are float, sums double
   std::size_t column_bytes = 0;  ///< of a particle without rows: position, fields and rates in columns
-  double boundary_reach = 0;     ///< where the boundary is in reach, in units of H
+  double boundary_reach = 0;     ///< cutoff of the boundary, in units of H
 };
 
-/// What vector units see of the fluid besides its places: all that a particle brings to a pair in a row, so that a
-/// particle that was found is loaded whole. For the talk's formula in 3D and double that makes two cache lines. The
-/// rows behind the fluid, some for each thread, are in reach of nothing: lanes without a particle point there.
+/// What vector units read of the fluid besides positions for the search: a row with all data of a particle, so that a
+/// partner is loaded whole. For the talk's formula in 3D and double a row is two cache lines. Rows behind the fluid,
+/// some for each thread, are beyond every cutoff: lanes without a particle point there.
 ///
 /// Values are of the pairs' precision, rates of the sums'. Where these differ (mixed) a component of a position is a
 /// whole number of mixed_unit modulo 2^32, kept in the bits of a value.
@@ -37,7 +37,7 @@ struct lane_view {
   double tie = 0;
 };
 
-/// What rounding asks of vector units, from the setup alone.
+/// What vector units must allow for rounding, from the setup alone.
 struct lane_tolerances {
   /// How far rounding to places moves |x_i - x_j|^2, in units of the cutoff squared. A component of x_i - x_j is moved
   /// by up to one place, and by what doubles cannot hold of it in a domain of that width. In a periodic box places are

@@ -37,7 +37,7 @@ template <std::size_t capacity, class RoomOf, class Make>
   if (filled > 0) sink.take(sink.call, rows, filled);
 }
 
-/// Those of listed rows that are in reach.
+/// The partners of listed rows that are within the cutoff.
 template <int D, class R>
 PAIRSUM_SAME_CODE void filter_rows(const problem<D, R>& p, const row_sink& sink, const row* listed, std::size_t n) {
   const auto room_of = [](const row& from) { return from.fluid_count + from.boundary_count + std::size_t(1); };

@@ -1,5 +1,5 @@
-// Finds who is in reach, and hands rows of them to the formula. Distances are tested in a loop of their own, which
-// packs the indices in reach without a branch, so that the branch predictor never has to guess a distance; the formula
+// Finds the candidates within the cutoff and passes rows of them to the formula. Distances are tested in a separate
+// loop, which packs indices without a branch, so that no distance depends on branch prediction; the formula
 // then runs on those alone. Nothing here knows a formula.
 #include <vector>
 
@@ -83,7 +83,7 @@ template <int D, class R>
 template <int D, class R>
 PAIRSUM_SAME_CODE void list_rows(const search_space<D, R>& s, const row_sink& sink, const meeting<D>* all, unsigned n,
                                  work_counts* counts) {
-  std::uint32_t hits[most_hits + 1];  // one more is written than is in reach
+  std::uint32_t hits[most_hits + 1];  // one more is written than passes
   row rows[most_rows];
   std::uint32_t* to = hits;
   std::size_t filled = 0;

@@ -34,9 +34,9 @@ class range_list {
 
 /// Which fluid candidates a particle of a meeting meets.
 enum class partners {
-  all,     ///< all; it is none of them
-  later,   ///< the first range begins with the particles themselves, each of which meets those behind it
-  others,  ///< all but itself, whose own side alone is summed (the gather)
+  all,     ///< all; it is not among them
+  later,   ///< those after it; the first range begins with the particles of the meeting themselves
+  others,  ///< all but itself; only its own side is summed (the gather)
 };
 
 /// The unit of a sum: fluid particles [begin, end), each against candidates of `fluid` and `boundary`; the talk's sumF1
@@ -59,8 +59,8 @@ struct meeting {
   }
 };
 
-/// A cell against itself and its (3^d - 1)/2 forward neighbours, and against the boundary of all neighbours (a boundary
-/// cell opens no pairs of its own, so both sides are taken here). `counts`: nullptr when timed.
+/// A cell against itself and its (3^d - 1)/2 forward neighbours, and against the boundary of all neighbours (no
+/// loop starts from a boundary cell, so neighbours on both sides are taken here). `counts`: nullptr when timed.
 template <int D>
 [[gnu::always_inline]] inline meeting<D> half_stencil(const cells<D>& c, std::size_t cell, work_counts* counts) {
   constexpr unsigned centre = pattern::stencil_centre<D>;

@@ -11,7 +11,7 @@ box<D, R> make_box(const setup& s);
 template <class R>
 box<1, R> make_box_of_axis(const setup& s, std::size_t d);
 
-/// What the ways between points of Omega are, in the working precision; `skin`: of lists of pairs, in units of H.
+/// How displacements in Omega are computed, in the working precision; `skin`: of lists of pairs, in units of H.
 template <int D, class R>
 torus<D, R> make_torus(const setup& s, double skin = 0) {
   return {make_box<D, R>(s), static_cast<R>(s.constants.H * (1 + skin))};

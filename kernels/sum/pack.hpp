@@ -8,7 +8,7 @@ namespace pairsum {
 /// Partners and rows that a thread has room for on its stack.
 inline constexpr std::size_t most_hits = 6144, most_rows = 64;
 
-/// Those of a range, or a list, that are in reach of x_i, appended to `to`. `at` says which candidate number j is.
+/// The candidates of a range, or a list, within the cutoff of x_i, appended to `to`. `at` maps number j to a candidate.
 template <int D, class R, class At>
 [[gnu::always_inline]] inline std::uint32_t* pack_of(const positions<D, R>& x, const point<D, R>& x_i, R reach2,
                                                      std::uint32_t begin, std::uint32_t end, std::uint32_t* to, At at) {
@@ -31,8 +31,8 @@ template <int D, class R, class At>
   return to;
 }
 
-/// The function that updates both sides. Vector units have none that adds atomically; a schedule that does so says so
-/// in its traits, and then is not given vector units.
+/// The function that updates both sides. Vector units have none that adds atomically; a schedule that adds atomically
+/// states so in its traits and runs as scalar code.
 template <int D, class R>
 rows_function both_sides(const problem<D, R>& p, update how) {
   const rows_function take = p.pairs->both[static_cast<unsigned>(how)];

@@ -25,10 +25,10 @@ struct sum_call {
   const target& to;
 };
 
-/// Takes rows; `call` is a sum_call<D, R>, or what the taker wants.
+/// Takes rows; `call` is a sum_call<D, R>, or whatever the function expects.
 using rows_function = void (*)(const void* call, const row* rows, std::size_t n);
 
-/// Who takes listed rows.
+/// The function that takes listed rows.
 struct row_sink {
   rows_function take;
   const void* call;
@@ -38,14 +38,14 @@ struct row_sink {
 /// A formula as schedules see it: functions on listed rows and on rates. This is all there is of it.
 template <int D, class R>
 struct pair_sum {
-  rows_function both[updates];  ///< both sides of each pair; nullptr where an update is not to be had
+  rows_function both[updates];  ///< both sides of each pair; nullptr where an update is unavailable
   rows_function own;            ///< the particle's own side; without vector units the rates are written, not added to
   /// On vector units: finds and sums the pairs of cell[0..n) in one function, of half stencils both sides, of full ones
   /// the own side.
   using of_cells = void (*)(const sum_call<D, R>&, const std::uint32_t* cell, std::size_t n);
   of_cells half_stencils, full_stencils;
-  /// Prefetches the fluid of cells, with `rates` where its rates lie there (nullptr: without). Rates that another
-  /// thread adds to, as those of a copy, would be taken from it.
+  /// Software prefetch of the fluid of cells, with its rates in `rates` (nullptr: without). Prefetching rates that
+  /// another thread adds to would take their cache lines from it.
   void (*fetch)(const problem<D, R>&, const std::uint32_t* cells, unsigned n, const rate_view* rates);
   void (*zero)(const rate_view& u, std::size_t begin, std::size_t end);
   /// to[to_at + k] += from[from_at + k] for k < n

@@ -1,9 +1,9 @@
 #pragma once
 #include <pairsum/sum/problem.hpp>
 
-/// Software prefetch of particles before their pairs are due. A sum goes through some twenty columns in several rows of
-/// cells at once, more than processors foresee: the talk's passes over a million particles take 1.4 times as long
-/// without. Now and then what comes next in a list is another thread's.
+/// Software prefetch of particles before their pairs are due. A sum reads some twenty columns in several rows of
+/// cells at once, more than hardware prefetchers follow: the talk's passes over a million particles take 1.4 times as
+/// long without. Occasionally the next unit of a list belongs to another thread.
 namespace pairsum {
 
 /// For a sum cell by cell in the order of the grid: of the cell after `cell` the neighbours one step ahead along the
@@ -38,8 +38,8 @@ template <int D, class R>
 }
 
 /// For a sweep over cell[0..n), at number k: what is near the next cell and not near this one, if cells come row after
-/// row; and where those of later cells are. Which particles are read depends on who is in reach, so processors cannot
-/// foresee them.
+/// row; and where those of later cells are. Which particles are read depends on the distance test, so hardware
+/// cannot predict them.
 template <bool half, int D, class R>
 [[gnu::always_inline]] inline void fetch_in_list(const problem<D, R>& p, const std::uint32_t* cell, std::size_t n,
                                                  std::size_t k, const target& to) {

@@ -57,7 +57,7 @@ inline void sum_meetings(const problem<D, R>& p, const target& to, const meeting
 template <int D, class R>
 void sum_cells(const problem<D, R>& p, const target& to, partners who, const std::uint32_t* cell, std::size_t n);
 
-/// Sums both sides of listed pairs; `tested`: only of those that are in reach, of a list that holds more.
+/// Sums both sides of listed pairs; `tested`: only of those within the cutoff, from a list that holds more.
 template <int D, class R>
 void sum_listed(const problem<D, R>& p, const target& to, const row* rows, std::size_t n, bool tested);
 

@@ -11,7 +11,7 @@
 
 namespace pairsum {
 
-/// A way to sum that was found to be fast (by `pairsum tune`), as words like
+/// Choices that were found to be fast (by `pairsum tune`), as words like
 /// "backend=symmetric_omp grid=hashed_grid M=7 precision=double threads=2 granularity=dynamic:32".
 struct profile {
   setup words;      ///< backend, grid, M, isa, block and precision; the rest is left at its defaults

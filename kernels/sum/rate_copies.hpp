@@ -29,7 +29,7 @@ class rate_copy {
   std::size_t stride_ = 0;
 };
 
-/// Copies of the rates, in which threads or passes add on their own; joined in a fixed order. Copy 0 is the rates
+/// Private copies of the rates for threads or passes, reduced in a fixed order. Copy 0 is the rates
 /// themselves.
 template <int D, class R>
 class rate_copies {
@@ -43,7 +43,7 @@ class rate_copies {
 
   /// Adds all copies to the rates, each particle's in the order of the copies.
   void join(const problem<D, R>& p, const team& t) const {
-    constexpr std::size_t piece = 1024;  // of a column, which stays in the first cache meanwhile
+    constexpr std::size_t piece = 1024;  // of a column, which stays in the first-level cache meanwhile
     t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (; begin < end; begin += piece)
         for (const rate_copy& copy : rest_) p.pairs->add(p.u, begin, copy.view(), begin, std::min(piece, end - begin));

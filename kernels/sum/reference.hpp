@@ -8,8 +8,8 @@
 
 namespace pairsum {
 
-/// The oracle: sums the same formula without any of the library's grids, sorts or loops, and says within which bound a
-/// correct backend must agree with it.
+/// The oracle: sums the same formula without any of the library's grids, sorts or loops, and gives an error bound
+/// within which a correct backend must agree with it.
 class reference {
  public:
   virtual ~reference() = default;

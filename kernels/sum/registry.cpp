@@ -58,7 +58,7 @@ void registry::add_missing(missing_word m) { missing_.push_back(std::move(m)); }
 void registry::add_wrapper(const backend_traits& t, const std::string& base, summation_wrapper wrap) {
   const std::string name(t.name);
   const auto entry = std::ranges::find(backends_, base, [](const backend_entry& b) { return b.traits.name; });
-  if (entry == backends_.end()) throw error("backend " + name + " cannot wrap " + base + ", which there is not");
+  if (entry == backends_.end()) throw error("backend " + name + " cannot wrap " + base + ": there is no such backend");
   if (std::ranges::find(wrappers_, base, &wrapper::name) != wrappers_.end())
     throw error("backend " + name + " cannot wrap " + base + ", which is a wrapper itself");
   add(backend_entry{t, entry->make, entry->unavailable});
@@ -164,15 +164,15 @@ std::unique_ptr<summation> registry::make_summation(const setup& s) const {
     return w->wrap(make_summation(inner), s);
   }
   const formula_entry& f = find_formula(s);
-  if (f.make == nullptr) throw error(text_of(f.words) + " has a reference alone");
+  if (f.make == nullptr) throw error(text_of(f.words) + " has no sum, only a reference");
   auto made = f.make(s);
   const bool single = s.precision == precision_name<float>();
   auto joined = at_place(s.dim, single, [&]<int D, class R>() -> std::unique_ptr<summation> {
     return std::make_unique<summation_in<D, R>>(s, b.traits, b.make, cast<formula<D, R>>(std::move(made)));
   });
   if (joined == nullptr)
-    throw error("this build sums " + std::to_string(s.dim) + "D in " + s.precision +
-                " for no formula; configure with -DPAIRSUM_DIMS=all -DPAIRSUM_PRECISIONS=all");
+    throw error("this build has no formula in " + std::to_string(s.dim) + "D and " + s.precision +
+                "; configure with -DPAIRSUM_DIMS=all -DPAIRSUM_PRECISIONS=all");
   return joined;
 }
 

@@ -25,7 +25,7 @@ struct missing_word {
 /// Puts a summation around another; the setup's backend is the wrapper's own name.
 using summation_wrapper = std::unique_ptr<summation> (*)(std::unique_ptr<summation>, const setup&);
 
-/// Backends and formulas, each with each: the only door to both.
+/// All backends and formulas, in every combination: the only access to both.
 class registry {
  public:
   /// The registry of this library.

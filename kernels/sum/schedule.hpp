@@ -14,7 +14,7 @@ struct any_schedule {
   virtual ~any_schedule() = default;
 };
 
-/// The same object as the type that it is; std::bad_cast if it is another.
+/// The same object, as its own type; std::bad_cast if it is of another.
 template <class To, class From>
 std::unique_ptr<To> cast(std::unique_ptr<From> from) {
   To& to = dynamic_cast<To&>(*from);
@@ -22,17 +22,17 @@ std::unique_ptr<To> cast(std::unique_ptr<From> from) {
   return std::unique_ptr<To>(&to);
 }
 
-/// A summation algorithm: who is summed when, into what. It cuts the sum into units of work by colours: units of a
-/// colour run at the same time, on any thread, and write to different particles; between colours there is a barrier. It
-/// is kept from step to step and does not time, print, or know the formula. A schedule has `static constexpr
-/// backend_traits traits` without name and runtime, and PAIRSUM_BACKEND makes a backend of it.
+/// A summation algorithm: which particles meet when, and where their rates go. It cuts the sum into units of work by
+/// colours: units of a colour run at the same time, on any thread, and write to different particles; between colours
+/// there is a barrier. It is kept from step to step and does not time, print, or know the formula. A schedule has
+/// `static constexpr backend_traits traits` without name and runtime, and PAIRSUM_BACKEND makes a backend of it.
 template <int D, class R>
 class schedule : public any_schedule {
  public:
   using problem_type = problem<D, R>;
 
   /// Reads the options, before there are particles. `cell_bytes`: what a sum touches of a cell's particles at the
-  /// talk's spacing of H/2. Throws pairsum::error for what is not to be had.
+  /// talk's spacing of H/2. Throws pairsum::error for what is unavailable.
   virtual void configure(const setup&, std::size_t /*cell_bytes*/) {}
   /// Refreshes its own buffers, lists, colours (timed apart).
   virtual void prepare(const problem_type&, const team&) {}
@@ -49,11 +49,11 @@ class schedule : public any_schedule {
   virtual void unit(const problem_type& p, unsigned colour, std::size_t k, int thread) = 0;
   /// All units, on the runtime that the traits name. Overridden by algorithms with a runtime of their own.
   virtual void sum(const problem_type& p, const team& t, const backend_traits& own, const pass_marks& marks);
-  /// Joins private copies.
+  /// Adds up private copies.
   virtual void reduce(const problem_type&, const team&) {}
 
-  /// Of lists that are kept (traits.skin > 0): do they still name every pair in reach? The particles must be those, in
-  /// the order, of the last prepare().
+  /// For Verlet lists (traits.skin > 0): do they still contain every pair within the cutoff? Particles and their order
+  /// must be those of the last prepare().
   virtual bool outlasts(const problem_type&, const team&) const { return false; }
   /// The particles are, or may be, others, or in another order.
   virtual void expire() {}

@@ -24,13 +24,13 @@ struct positions {
   }
 };
 
-/// Places are whole numbers modulo 2^32, so many to a cutoff: differences of particles less than 2048 cutoffs apart are
-/// exact. In a periodic box 2^32 of them make its edge, so that differences go through its faces where that is shorter.
+/// Places are fixed-point positions: integers modulo 2^32, so many per cutoff. Differences of particles less than 2048
+/// cutoffs apart are exact. In a periodic box 2^32 of them make an edge, so that differences are minimum images.
 inline constexpr std::int32_t places_per_reach = 1 << 20;
 /// Columns of places can be read so far behind their end.
 inline constexpr std::size_t place_room = 32;
 
-/// The positions once more, as vector units search them (sum/lane_rows.hpp makes them).
+/// The positions as vector units search them (sum/lane_rows.hpp makes them).
 template <int D>
 struct lane_places {
   std::array<const std::int32_t*, D> place{};  ///< [particle]; rounded to the nearest
@@ -41,7 +41,7 @@ struct lane_places {
   std::array<float, D> half_edge{};   ///< half its edges in such units
 };
 
-/// Where the candidates of a search lie, and how near they must be.
+/// The positions of a search's candidates, and its cutoffs.
 template <int D, class R>
 struct search_space {
   positions<D, R> x;

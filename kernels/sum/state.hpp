@@ -24,14 +24,14 @@ class state : public summation {
   particle_table snapshot() const override;
   std::size_t lost() const override { return lost_; }
 
-  /// Who moves boundary particles, or changes the order of any, calls forget_index().
+  /// Callers that move boundary particles, or change the order of any, must call forget_index().
   particle_set<D, R>& particles() { return particles_; }
   void forget_index() { index_.forget(); }
   /// Fluid particles are the first of the set after index().
   std::size_t fluid_count() const { return index_.fluid(); }
 
  protected:
-  /// skin: what cells are wider for lists that are kept, in units of H.
+  /// skin: how much wider cells are for Verlet lists, in units of H.
   explicit state(const setup& s, double skin = 0);
   ~state() override;
 

@@ -14,8 +14,8 @@
 
 namespace pairsum {
 
-/// One backend with one interaction on one set of particles, its types erased: called once per summation, so the
-/// virtual call costs nothing. The phases must be called in their order; a caller may time each.
+/// One backend with one interaction on one set of particles, its types erased. It is called once per
+/// summation, so the virtual call costs nothing. The phases must be called in their order; a caller may time each.
 class summation {
  public:
   virtual ~summation() = default;
@@ -36,9 +36,9 @@ class summation {
   virtual void prepare(const team& t) = 0;  ///< per-particle terms of the formula, the backend's workspace
   virtual void zero(const team& t) = 0;     ///< rates to 0, for backends that accumulate
   virtual void sum(const team& t) = 0;      ///< the summation
-  virtual void reduce(const team& t) = 0;   ///< joins private copies, for backends that have them
+  virtual void reduce(const team& t) = 0;   ///< adds up private copies, for backends that have them
 
-  /// From now on sum() marks its passes for this observer, if the backend has passes; nullptr: for nobody.
+  /// From now on sum() marks its passes for this observer, if the backend has passes; nullptr: for none.
   virtual void observe(pass_observer* observer) = 0;
 
   /// All phases once.

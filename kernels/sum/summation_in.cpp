@@ -34,7 +34,8 @@ void summation_in<D, R>::choose_lanes() {
   if (isa != scalar_isa) {
     if (traits_.conflicts == conflict_avoidance::atomics)
       throw error("backend " + std::string(traits_.name) +
-                  " has no vector units, whose lanes cannot add atomically: take isa " + std::string(scalar_isa));
+                  " does not run on vector units, whose lanes cannot add atomically: use isa " +
+                  std::string(scalar_isa));
     const auto built = formula_->lanes();
     const auto listers = vector_listers<D>();
     for (const lane_sum<D, R>& sum : built)
@@ -44,18 +45,17 @@ void summation_in<D, R>::choose_lanes() {
           lister_ = &lister;
         }
     if (lane_ == nullptr && built.empty() && isa != best_isa)
-      throw error("interaction " + s.interaction +
-                  " has no sums on vector units, as those of whole numbers have none: take isa " +
+      throw error("interaction " + s.interaction + " sums whole numbers, which vector units do not: use isa " +
                   std::string(scalar_isa));
     if (lane_ == nullptr && !built.empty())
       throw error("interaction " + s.interaction + " was not compiled for isa " + isa +
-                  "; one of one's own is compiled for one set, by the flags of its source: take isa " +
+                  "; an interaction of your own is compiled for the set that its source's flags name: use isa " +
                   std::string(best_isa));
   }
   if (lane_ != nullptr) {
     rows_.emplace(s, formula_->layout(), lane_->fuses, traits_.skin);
   } else if (mixed) {
-    throw error("precision mixed needs vector units: take an isa other than " + std::string(scalar_isa) +
+    throw error("precision mixed needs vector units: use an isa other than " + std::string(scalar_isa) +
                 (isa_names().empty() ? ", in a build and on a machine that have one" : ""));
   }
 }

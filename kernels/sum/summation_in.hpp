@@ -14,7 +14,7 @@ class summation_in final : public state<D, R> {
   using base = state<D, R>;
 
  public:
-  /// Throws pairsum::error for an isa or a block that is not to be had.
+  /// Throws pairsum::error for an isa or a block that is unavailable.
   summation_in(const setup& s, const backend_traits& traits, schedule_maker make, std::unique_ptr<formula<D, R>> f);
 
   const backend_traits& traits() const override { return traits_; }

@@ -7,8 +7,8 @@
 
 namespace pairsum {
 
-/// Lists rows on the vector units of one instruction set. Fluid partners may be a little out of reach: whoever takes
-/// them decides in the working precision. Behind a row's fluid partners are row_padding more, numbers from `spare` on.
+/// Lists rows on the vector units of one instruction set. Fluid partners may be slightly beyond the cutoff: the sum
+/// decides in the working precision. Behind a row's fluid partners are row_padding more, numbers from `spare` on.
 template <int D>
 struct vector_lister {
   std::string_view isa;

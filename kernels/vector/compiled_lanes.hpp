@@ -2,8 +2,8 @@
 #include <pairsum/sum/formula.hpp>
 #include <pairsum/vector/highway.hpp>
 
-/// Are there lanes in what this is compiled for? Not without SSSE3 or NEON; nor with vectors of unknown length, of
-/// which no struct can be made.
+/// Does the instruction set of this compilation have lanes? Not without SSSE3 or NEON, nor with vectors of unknown
+/// length, which no struct can hold.
 #define PAIRSUM_LANES                                                                                                 \
   (HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SVE_256 && HWY_TARGET != HWY_SVE2_128 && \
    !HWY_HAVE_SCALABLE)

@@ -1,5 +1,5 @@
 #pragma once
-// Highway for the one instruction set that the compiler's flags name; which set runs is decided by whoever calls.
+// Highway for the one instruction set that the compiler's flags name; the caller decides which set runs.
 #ifndef HWY_COMPILE_ONLY_STATIC
 #define HWY_COMPILE_ONLY_STATIC
 #endif

@@ -1,4 +1,4 @@
-// Compiled once for each instruction set, with its flags: who finds pairs on its vector units.
+// Compiled once for each instruction set, with its flags: the lister of its vector units.
 #include <pairsum/core/places.hpp>
 #include <pairsum/formula/formulas.hpp>
 #include <pairsum/vector/lane_lister.hpp>

@@ -4,13 +4,13 @@
 
 namespace pairsum {
 
-/// Whoever the sink names sums rows.
+/// The function that the sink names sums the rows.
 struct by_sink {
   static constexpr bool has_boundary = true;
   static HWY_INLINE void sum(const row_sink& sink, const row* rows, std::size_t n) { sink.take(sink.call, rows, n); }
 };
 
-/// Rows of a few particles, on their way to Sum.
+/// Rows of a few particles, buffered for Sum.
 template <class V, class Sum>
 class alignas(4096) row_batch {
   using index_tag = lane_tag<std::uint32_t>;
@@ -18,7 +18,7 @@ class alignas(4096) row_batch {
  public:
   explicit row_batch(const row_sink& sink) : sink_(sink) {}
 
-  /// How many particles with up to so many partners each there is room for: one at least, once it was flushed.
+  /// Room for this many particles with up to so many partners each: at least one after a flush.
   HWY_INLINE std::size_t particles_for(std::size_t partners) {
     const auto fitting = [&] {
       return std::min(most_rows - n_, static_cast<std::size_t>(hits_ + capacity - to_) / (partners + 3 * row_padding));
@@ -32,7 +32,7 @@ class alignas(4096) row_batch {
     return fitting();
   }
   HWY_INLINE std::uint32_t* free() { return to_; }
-  /// What lies from free() to `end` are fluid partners of particle i.
+  /// The entries from free() to `end` are fluid partners of particle i.
   HWY_INLINE void add_fluid(std::uint32_t i, std::uint32_t* end) {
     const index_tag d;
     constexpr std::size_t L = hn::MaxLanes(d);
@@ -55,7 +55,7 @@ class alignas(4096) row_batch {
  private:
   static constexpr std::size_t capacity = 2048, most_rows = 32;
 
-  // Apart from each other and from the candidates that are read at the same time, modulo a page: see nearby.
+  // At different offsets of a page from each other and from the candidates read at the same time: see nearby.
   char apart_[2880];
   HWY_ALIGN std::uint32_t hits_[capacity];
   char more_apart_[896];
@@ -86,8 +86,8 @@ class lane_lister {
       list_in<plain_list>(t, nullptr, sink, m, n);
   }
 
-  /// The half (partners later) or the full stencils (others) of cell[0..n), one after the other, with prefetch of what
-  /// comes, `stride` bytes each.
+  /// The half (partners later) or full stencils (others) of cell[0..n), one after the other, with software prefetch of
+  /// the next rows, `stride` bytes each.
   template <partners who, std::size_t stride>
   static HWY_INLINE void list_cells(const places& t, const cells<D>& c, const std::byte* rows, const row_sink& sink,
                                     const std::uint32_t* cell, std::size_t n) {
@@ -98,7 +98,7 @@ class lane_lister {
       const meeting<D> m = who == partners::later ? half_stencil(c, cell[k], nullptr) : full_stencil(c, cell[k]);
       list_fluid<who>(t, m, nullptr, near, b);
       if (Sum::has_boundary && !m.boundary.empty()) list_boundary(t, m, nullptr, near, b);
-      b.flush();  // soon, while its particles are at hand
+      b.flush();  // now, while its particles are in the cache
     }
   }
 
@@ -120,11 +120,10 @@ class lane_lister {
     b.flush();
   }
 
-  // What prefetches alone is to g++ a function without effect, whose call is left out, unless it is inlined first.
-  /// Prefetches what a sweep over cell[0..n) reads soon, when it is at number k: the rows and places of particles near
-  /// the next cell and not near this one, if cells come row after row; and where those of later cells are. Which rows
-  /// are read depends on hits, so the processor cannot foresee them: without this, a million particles take 1.4 times
-  /// as long.
+  // g++ takes a function that only prefetches for one without effect and drops its calls, unless it is inlined first.
+  /// Software prefetch for a sweep over cell[0..n) at number k: rows and positions of particles near the next cell and
+  /// not near this one, if cells are swept row by row; and the ranges of later cells. Which rows are read depends on
+  /// hits, so hardware cannot predict them: without this, a million particles take 1.4 times as long.
   template <bool half, std::size_t stride>
   static HWY_INLINE void fetch_ahead(const places& t, const cells<D>& c, const std::byte* rows,
                                      const std::uint32_t* cell, std::size_t n, std::size_t k) {
@@ -173,18 +172,18 @@ class lane_lister {
                   HWY_ATTR { b.add_boundary(order == nullptr ? i : order[i], near.find(place, b.free())); });
   }
 
-  /// Which candidate the first of the particles is.
+  /// The number of the first particle among the candidates.
   static std::size_t place_of(const meeting<D>& m) {
     std::size_t at = 0;
     for (const index_range& r : m.fluid) {
       if (m.begin >= r.begin && m.begin < r.end) return at + (m.begin - r.begin);
       at += r.end - r.begin;
     }
-    return 0;  // it is there
+    return 0;  // unreachable: it is among them
   }
 
   using range_array = range_list<pattern::stencil_cells<D> + 1>;
-  /// Where in a sequence of ranges the next candidate is.
+  /// The next candidate in a sequence of ranges.
   struct cursor {
     const index_range *at, *end;
     index_range rest;
@@ -192,7 +191,7 @@ class lane_lister {
     bool done() const { return at == end; }
   };
 
-  /// Makes `near` hold candidates around particle i, from the cursor on, as many as it takes; returns the cursor behind
+  /// Fills `near` with candidates around particle i, from the cursor on, until it is full; returns the cursor behind
   /// them.
   template <class near_list>
   static HWY_INLINE cursor copy(const places& t, std::uint32_t i, float reach, cursor c, near_list& near) {

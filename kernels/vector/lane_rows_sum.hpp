@@ -13,13 +13,13 @@ namespace pairsum {
 ///
 ///   for rows i, for vectors of its partners j:
 ///     load, transpose, r, r2, |r|
-///     formula, 0 in lanes out of reach; u_i += to_i      u_i in registers, summed over the lanes behind the last
+///     formula, 0 in lanes beyond the cutoff; u_i += to_i      u_i in registers, summed over the lanes behind the last
 ///     vector u_j += to_j                                        row by row
 ///
-/// A core's scheduler holds fewer waiting vector instructions than two vectors of pairs have, so the loads of the next
-/// one cannot begin early. Where both sides are updated and lanes have four bytes, with which half the instructions are
-/// loads and transposition, these run a few vectors ahead in a loop of their own; elsewhere storing and reloading their
-/// results costs more than it gains.
+/// A core's scheduler holds fewer waiting instructions than two vectors of pairs have, so the loads of the next vector
+/// cannot begin early. Where both sides are updated and lanes have four bytes, half of the instructions are loads and
+/// transposition. There these run a few vectors ahead in a separate loop. Elsewhere storing and reloading their results
+/// costs more than it gains.
 template <class I, class V>
 class lane_rows_sum {
   using layout = row_layout<I>;
@@ -36,8 +36,8 @@ class lane_rows_sum {
   static void both(const void* call, const row* rows, std::size_t n) { sum<true, rates_in_rows>(call, rows, n); }
   static void own(const void* call, const row* rows, std::size_t n) { sum<false, rates_in_columns>(call, rows, n); }
 
-  /// Finding and summing in one function, for sweeps over blocks of cells: a call behind a pointer for each cell takes
-  /// 2 to 8 % of their time.
+  /// Finding and summing in one function, for sweeps over blocks of cells: an indirect call per cell costs 2 to 8 % of
+  /// their time.
   static void half_stencils(const sum_call<D, real>& c, const std::uint32_t* cell, std::size_t n) {
     of_cells<partners::later, &both>(c, cell, n);
   }
@@ -84,7 +84,7 @@ class lane_rows_sum {
     }
   };
 
-  /// A vector of pairs: r = x_i - x_j, r.r, |r|, and what j brings.
+  /// A vector of pairs: r = x_i - x_j, r.r, |r|, and the data of j.
   struct pairs {
     vec<D, T> r;
     T r2, distance;
@@ -145,7 +145,7 @@ class lane_rows_sum {
   }
 
   HWY_INLINE const value* row_of(std::size_t i) const { return rows_ + i * layout::stride; }
-  /// What the particle of a row brings to a pair, in every lane.
+  /// The data of a row's particle, in every lane.
   static HWY_INLINE particle particle_at(const value* row) { return particle_of_row<T>(row); }
   template <class L>
   static HWY_INLINE typename I::template particle<L> particle_of_row(const value* row) {
@@ -225,8 +225,8 @@ class lane_rows_sum {
     }
   }
 
-  /// u += what a row's boundary particles do to its own. These pairs are few, so their particles are gathered from
-  /// their columns, and always summed in I's own precision.
+  /// u += contributions of a row's boundary particles to its own. These pairs are few, so their particles are gathered
+  /// from their columns, and always summed in I's own precision.
   HWY_INLINE void add_boundary(const row& of, W (&u)[S]) const {
     using L = lanes<W>;
     using whole = hwy::MakeSigned<real>;
@@ -240,7 +240,7 @@ class lane_rows_sum {
     for (std::size_t k = 0; k < of.boundary_count; k += M) {
       const std::uint32_t* const b = of.boundary + k;
       const std::size_t left = of.boundary_count - k;
-      // Behind the last hit the first stands in, out of reach.
+      // Lanes behind the last hit hold the first one, moved beyond the cutoff.
       const auto hit = hn::IfThenElse(hn::FirstN(dn, left), hn::LoadU(dn, b), hn::Set(dn, b[0]));
       const auto place = as_lanes(di, hit);
       const auto from = hn::Sub(place, hn::Set(di, static_cast<whole>(p_.fluid_count)));

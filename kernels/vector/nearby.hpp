@@ -11,11 +11,11 @@
 
 namespace pairsum {
 
-/// Candidates around one particle, copied together: their places relative to it, in float whatever the working
-/// precision, so that a distance test takes twice the lanes of double. It tests |x_j|^2 - 2 x_i.x_j < reach^2 -
-/// |x_i|^2, one fused multiply-add per component, and lets a little more pass than is in reach: whoever uses the hits
-/// decides in the working precision.
-/// `ordered`: numbers of the places are not those of particles, see the constructor.
+/// Candidates around one particle, copied together: their positions relative to it, in float for every working
+/// precision, so that a distance test has twice the lanes of double. The test is |x_j|^2 - 2 x_i.x_j < reach^2 -
+/// |x_i|^2, one fused multiply-add per component. It passes slightly more than the candidates within the cutoff; the
+/// sum decides in the working precision. Positions are fixed-point numbers, called places (sum/search_space.hpp).
+/// `ordered`: the numbers of places are not those of particles, see the constructor.
 template <int D, class V, bool ordered>
 class alignas(4096) nearby {
   using tag = lane_tag<float>;
@@ -36,8 +36,8 @@ class alignas(4096) nearby {
     limit_ = (reach * reach + rounding + excess) * unit * unit;
     n_ = 0;
   }
-  /// The same in a periodic box, where a place takes place_size[c] units. Candidates are seen on the shortest way from
-  /// the origin, which is that of whoever is near only as far as half an edge.
+  /// The same in a periodic box, where a place takes place_size[c] units. Displacements are minimum images as seen from
+  /// the origin, which holds for particles within half an edge of it.
   void clear(const places& place, std::uint32_t i, float reach, float excess, const std::array<float, D>& place_size,
              const std::array<float, D>& half_edge) {
     clear(place, i, reach, excess);
@@ -64,11 +64,11 @@ class alignas(4096) nearby {
     return in;
   }
 
-  /// Takes candidates from `range` until full; what is left stays in the range.
+  /// Takes candidates from `range` until full; the rest stays in the range.
   HWY_INLINE void take(const places& place, index_range& range) {
     const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(range.end, range.begin + (capacity - n_)));
     std::size_t j = range.begin, slot = n_;
-    // Cells in a row hold some two vectors of candidates: these are copied without asking how many there are.
+    // Cells in a row hold some two vectors of candidates: these are copied without testing how many there are.
     copy(place, j, slot);
     copy(place, j + N, slot + N);
     for (j += 2 * N, slot += 2 * N; j < end; j += N, slot += N) copy(place, j, slot);
@@ -76,7 +76,7 @@ class alignas(4096) nearby {
     range.begin = end;
   }
 
-  /// To be called when all were taken: nothing behind the last is in reach of anything.
+  /// To be called when all were taken: nothing behind the last is within any cutoff.
   HWY_INLINE void close() {
     const tag d;
     hn::StoreU(hn::Set(d, std::numeric_limits<float>::quiet_NaN()), d, square_ + n_);
@@ -111,7 +111,7 @@ class alignas(4096) nearby {
   }
 
  private:
-  /// Which of the candidates in slots k .. k + N - 1 pass from a place? None of those behind the last, see close().
+  /// Which candidates in slots k .. k + N - 1 pass the test from a place? None of those behind the last, see close().
   class test {
    public:
     HWY_INLINE test(const nearby& near, const float (&place)[D]) : near_(near) {
@@ -164,10 +164,10 @@ class alignas(4096) nearby {
       hn::StoreU(numbered_from(du, j), du, index_ + slot);
   }
 
-  /// How far from the origin a particle may be, per component, in units of the reach. Then those in its reach are less
-  /// than 5 away, less than 2^23 places, which float holds exactly.
+  /// How far from the origin a particle may be, per component, in units of the cutoff. Its partners are then less than
+  /// 5 cutoffs from the origin, less than 2^23 places, which float holds exactly.
   static constexpr float near = 4, unit = places_per_reach;
-  /// What the limit is wider than the reach's square, in its units, for the roundings of the test. With u = 2^-24:
+  /// How much the limit exceeds the square of the cutoff, in its units, for rounding in the test. With u = 2^-24:
   /// |x_i|^2 <= 48, |x_j|^2 <= 63; without fused operations the sum rounds up to seven times at most 111 u (4.7e-5),
   /// the limit and the test in the working precision, which decides, a few times 49 u at most.
   static constexpr float rounding = 7e-5f;

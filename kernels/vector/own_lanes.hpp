@@ -1,5 +1,5 @@
 #pragma once
-// For interactions of one's own: vector units as the source is compiled for.
+// For a user's own interactions: the vector units that the source is compiled for.
 #include <pairsum/core/isa.hpp>
 #include <pairsum/formula/lanes_of.hpp>
 #include <pairsum/vector/compiled_lanes.hpp>

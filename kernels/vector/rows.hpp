@@ -4,9 +4,9 @@
 #include <pairsum/formula/row_layout.hpp>
 #include <pairsum/vector/lanes.hpp>
 
-/// Between particles that lie anywhere, a row of values each, and vectors with one particle per lane: rows are loaded
-/// in blocks of a few values and transposed in registers, which takes a fraction of the time of gather and scatter
-/// instructions. Rows are padded to whole blocks of row_block values.
+/// Converts between rows (the values of one particle, anywhere in memory) and vectors with one particle per lane. Rows
+/// are loaded in blocks of a few values and transposed in registers, which takes a fraction of the time of gather and
+/// scatter instructions. Rows are padded to whole blocks of row_block values.
 namespace pairsum {
 
 namespace rows_detail {

@@ -43,7 +43,7 @@ BAD_RUNS = [
     (["--grid", "nope"], ["nope", "hashed_grid"]),
     (["--grid", "hashed_grid,"], ["--grid"]),
     (["--isa", "nope"], ["nope"]),
-    (["--isa", "best", "--backend", "atomic_add"], ["atomic_add has no vector units", "scalar"]),
+    (["--isa", "best", "--backend", "atomic_add"], ["atomic_add does not run on vector units", "scalar"]),
     (["--isa", "sse4" if platform.machine() == "x86_64" else "neon", "--interaction", "count"], ["count", "whole numbers", "isa scalar"]),
     (["--block", "slab:0"], ["slab:0", "pencil:N"]),
     (["--block", "slab:4:morton"], ["slab:4:morton", "pencil:N"]),

@@ -74,7 +74,7 @@ TEST(measurable, a_backend_without_what_is_asked_is_left_out_and_the_others_stay
   if (isa_names().empty()) GTEST_SKIP() << "no vector units here";
   ASSERT_EQ(here.plan.parts.size(), 1u);
   EXPECT_EQ(here.plan.parts[0].request.backends, texts{"naive"});
-  EXPECT_TRUE(here.left_out.at("a").front().starts_with("backend atomic_add cannot be had with isa best"));
+  EXPECT_TRUE(here.left_out.at("a").front().starts_with("backend atomic_add is unavailable with isa best"));
 }
 
 TEST(measurable, a_dry_run_says_what_is_left_out_and_why) {

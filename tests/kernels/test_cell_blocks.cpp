@@ -129,7 +129,7 @@ TEST(cell_blocks, what_does_not_go_round_a_torus_is_refused_or_not_chosen) {
   cell_blocks<3> blocks;
   blocks.shape(block_shape{1, 5});
   EXPECT_EQ(error_of([&] { blocks.build(s.index.view()); }),
-            "blocks of 5 cells do not go round a torus of 8 cells in two colours: they may be up to 4 wide");
+            "blocks of 5 cells do not fit around a torus of 8 cells in two colours: they may be up to 4 cells wide");
   blocks.shape(block_limits{1 << 20, 1});
   EXPECT_EQ(error_of([&] { blocks.build(s.index.view()); }), "");
 }
@@ -164,7 +164,7 @@ TEST(cell_blocks, follow_cells_that_move) {
   blocks.build(c);
   EXPECT_EQ(blocks.size(0), 1u);
   blocks.shape(block_shape{1, 4});
-  EXPECT_TRUE(says(error_of([&] { blocks.build(c); }), {"do not go round a torus of 6 cells"}));
+  EXPECT_TRUE(says(error_of([&] { blocks.build(c); }), {"do not fit around a torus of 6 cells"}));
   blocks.shape(block_shape{1, 2}, true);
   blocks.build(c);
   EXPECT_EQ(blocks.colours(), 1u);

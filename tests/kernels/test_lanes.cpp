@@ -191,7 +191,8 @@ TEST_P(isa_test, is_what_was_asked_for) {
   for (const std::string_view isa : names) {
     if (atomic) {
       world.isa = isa;
-      EXPECT_TRUE(says(refusal(), {"backend atomic_add has no vector units, whose lanes cannot add atomically"}));
+      EXPECT_TRUE(
+          says(refusal(), {"backend atomic_add does not run on vector units, whose lanes cannot add atomically"}));
     } else {
       EXPECT_EQ(told(isa), isa);
     }

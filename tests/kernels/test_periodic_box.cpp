@@ -203,7 +203,7 @@ TEST(periodic_box, what_is_too_small_is_refused) {
         << refusal(grid);
   s.world.constants.H = 0.06;
   const std::string text = refusal(6);
-  EXPECT_TRUE(says(text, {"M = 6", "does not go round the periodic box", "64 cells", "M from 2 to 4 fit"})) << text;
+  EXPECT_TRUE(says(text, {"M = 6", "does not fit the periodic box", "64 cells", "M from 2 to 4 fit"})) << text;
   EXPECT_EQ(text.find('\n'), std::string::npos);
   s.world.constants.H = 0.2;
   EXPECT_TRUE(says(refusal(3), {"M = 3", "M = 2 fits"})) << refusal(3);

@@ -47,7 +47,7 @@ TEST_P(teams_test, larger_than_prepared_are_refused) {
   sum->index(three.get());
   sum->prepare(one.get());
   sum->zero(one.get());
-  EXPECT_EQ(error_of([&] { sum->sum(three.get()); }), "prepared for 1 threads, but to be summed on 3");
+  EXPECT_EQ(error_of([&] { sum->sum(three.get()); }), "prepared for 1 threads, but summed on 3");
   sum->sum(one.get());
   sum->reduce(one.get());
   if (traits.deterministic) {

@@ -155,7 +155,7 @@ def refused(done, *says):
     ("absent", ["cannot open", "No such file"]),
     ("text", ["cannot open", "invalid ELF header"]),
     ("bare", ["no plug-in", "PAIRSUM_PLUGIN"]),
-    ("other", ['of build "0.0.9 of another build"', 'this program of "0.1', "build the plug-in anew"]),
+    ("other", ['of build "0.0.9 of another build"', 'this program of "0.1', "rebuild the plug-in"]),
     ("taken", ["there is a backend naive already"])])
 @pytest.mark.parametrize("program, words", [("pairsum", ["list"]), ("pairsum_bench", [])])
 def test_refusals(call, folder, program, words, name, says):
