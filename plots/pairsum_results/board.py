@@ -10,6 +10,7 @@ from .figures.style import FAMILIES
 from .ladders import families, worlds
 from .load import PLACE
 from .reports import Report
+from .self_tests import self_tests
 
 #: The share of the machine that other processes may take before a round counts as disturbed.
 _QUIET = 0.05
@@ -19,6 +20,7 @@ _USUAL = ("", "scalar", "none", "auto")  # what is not said of a point
 def warnings(report: Report) -> list[str]:
     """What to know before any number: disturbed rounds, points that failed their verification."""
     shares, failed = report.results.closed["others_share"], report.results.failed
+    failed = failed[~failed["backend"].isin(self_tests(report.results).index)]  # of those it is what was expected
     found = []
     if disturbed := int((shares > _QUIET).sum()):
         found.append(f"{disturbed} of {len(shares)} rounds were disturbed: other processes took up to "
@@ -43,15 +45,16 @@ def card(report: Report) -> dict[str, Any] | None:
     if pd.notna(p["total_s_low"]):
         numbers.append((words.time(p["total_s"]), "a step",
                         words.between(p["total_s_low"], p["total_s_high"], words.time)))
-    tied = [report.points["backend"][k] for k in answer.ties]
+    tied = dict.fromkeys(report.points["backend"][answer.ties])
+    tied.pop(p["backend"], None)  # with another grid or M
     fastest = "Fastest" if answer.decided else "Fastest so far"
     facts = {fastest: f"{p['backend']} with {words.threads_words(p['threads'])}, {_place(p)}",
-             "Cannot be told from it": first_few(list(dict.fromkeys(tied))),
+             "Ties with": first_few(list(tied)),
              "Case": f"{p['case']}, {p['dim']}D, {p['state']}, spacing {p['dx']:g}",
              "Particles": f"{words.count(p['n_fluid'])} fluid"
              + (f", {words.count(p['n_boundary'])} boundary" if p["n_boundary"] else ""),
              "Precision": p["precision"], "Machine": f"{e['host']}: {e['cpu']}, {e['cores']} cores",
-             "Rounds": f"{len(report.results.closed)}, of this point {p['rounds']}"}
+             "Rounds": f"{p['rounds']} of {len(report.results.closed)}"}
     return {"text": answer.text, "decided": answer.decided, "numbers": numbers if answer.decided else [],
             "facts": {name: said for name, said in facts.items() if said}, "command": answer.command}
 

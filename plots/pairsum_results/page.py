@@ -89,7 +89,7 @@ def _tables(report: Report) -> _Headed:
 
 
 def _facts(report: Report) -> _Headed:
-    return {re.split(":", table.caption)[0]: [("", _html(table))] for table in facts(report) if table.rows}
+    return {re.split("[:;]", table.caption)[0]: [("", _html(table))] for table in facts(report) if table.rows}
 
 
 def _by_heading(of_machines: Iterable[_Headed]) -> dict[str, list[list[tuple[str, Any]]]]:
