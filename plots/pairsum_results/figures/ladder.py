@@ -20,7 +20,8 @@ def reach(table: pd.DataFrame) -> float:
 def headline(own: pd.DataFrame) -> str:
     """What one ladder says: its threads and its base."""
     base = own.iloc[0]
-    return (f"{words.threads_words(base['threads'])}: times as fast as {base['base_backend']}, "
+    isa = "" if base["base_isa"] == "scalar" else f" {base['base_isa']}"
+    return (f"{words.threads_words(base['threads'])}: times as fast as {base['base_backend']}{isa}, "
             f"{words.time(base['base_time_s'])} a step")
 
 
@@ -31,7 +32,8 @@ def _panels(report: Report) -> list[Panel]:
 
     def paint(axes: Axes, own: pd.DataFrame) -> None:
         reference(axes, 1.0, label="equal")
-        at = name_rows(axes, own["backend"] + ["" if pd.isna(m) else f", M={m:.0f}" for m in own["M"]])
+        isa = "" if own["isa"].nunique() < 2 else (" " + own["isa"]).replace(" scalar", "")
+        at = name_rows(axes, own["backend"] + isa + ["" if pd.isna(m) else f", M={m:.0f}" for m in own["M"]])
         boxes(axes, at, 0, own["ratio"], label="ratio", **style.BOX,
               facecolor=[style.FAMILIES[kinds[backend]][0] for backend in own["backend"]])
         for width, colour in ((3.6, "white"), (1.6, style.INK)):
