@@ -18,9 +18,10 @@ CASES = {"dam_break": "dense", "periodic_lattice": "dense periodic", "random_clu
 
 
 @functools.lru_cache
-def rows(study):
-    """The committed study of this name, with its ladder."""
-    results = pr.load([ROOT / "results" / study])
+def rows(study, revision=""):
+    """The committed study of this name, at this revision if it has several, with its ladder."""
+    (file,) = (ROOT / "results" / study).glob(f"*-{revision}*.jsonl")
+    results = pr.load([file])
     return results, pr.ladder(results)
 
 
@@ -161,9 +162,9 @@ def instruction_sets_and_blocks():
                   for isa, block, (_, line) in zip(points["isa"], points["block"], ratios.iterrows())])
 
 
-def talk():
-    results, _ = rows("talk")
-    points = results.points.query("state == 'rest' and backend in ['naive_omp', 'symmetric_omp', 'naive_tbb', 'symmetric_tbb']")
+def talk(revision):
+    results, _ = rows("talk", revision)
+    points = results.points.query("state == 'rest' and grid == 'hashed_grid' and threads <= 2")
     cells = {(p["backend"], p["threads"], p["M"]): f"{1e3 * p['sum_s']:.0f} [{1e3 * p['sum_s_low']:.0f}, {1e3 * p['sum_s_high']:.0f}]"
              for _, p in points.iterrows()}
     backends = ["naive_omp", "symmetric_omp", "naive_tbb", "symmetric_tbb"]
@@ -172,20 +173,31 @@ def talk():
                  [[f"`{name}`", *(cells[name, *column] for column in columns)] for name in backends])
 
 
-def talk_claims():
-    results, _ = rows("talk")
+def talk_claims(revision):
+    results, _ = rows("talk", revision)
     twice = pr.algorithm_speedup(results).query("M == base_M")
     twice = twice[results.points.loc[twice["point"], "state"].eq("rest").to_numpy()]
     lines = [[f"`{x['base_backend']}` over `{x['backend']}`, M = {x['M']:.0f}, {x['threads']} thread{'s' * (x['threads'] > 1)}",
               interval(x), x["rounds"], x["verdict"]] for _, x in twice.iterrows()]
-    scaling = pr.speedup(results).query("threads == 2")
+    scaling = pr.speedup(results).query("threads == 2 and M == M")
     lines += [[f"`{x['backend']}`, M = {x['M']:.0f}: 1 thread over 2", interval(x), x["rounds"], x["verdict"]]
               for _, x in scaling.iterrows()]
     return table(["ratio of times", "value", "rounds", "verdict"], lines)
 
 
+def talk_fastest():
+    """The talk's particles on 2 threads and compact_grid: the fastest strategies against scalar naive_omp."""
+    results, _ = rows("talk", "3349c07")
+    points = over(results, grid="compact_grid", threads=2)
+    base = over(results, grid="compact_grid", threads=2, backend="naive_omp", isa="scalar")[0]
+    ratios = pr.compared(results, [base] * len(points), points, "total_s").sort_values("time_s")
+    return table(["backend", "isa", "ms per sum", "ms per step", "times as fast as scalar `naive_omp`, whole step"],
+                 [[f"`{x['backend']}`", x["isa"], f"{1e3 * results.points.loc[x['point'], 'sum_s']:.0f}",
+                   f"{1e3 * x['time_s']:.0f}", interval(x)] for _, x in ratios.iterrows()])
+
+
 def hash_sizes():
-    results, _ = rows("m_sweep")
+    results, _ = rows("m_sweep", "3349c07")
     lines = []
     for _, x in pr.m_comparison(results).query("series == 0").iterrows():
         lines.append([f"`{x['backend']}`", f"{x['M']:.0f}", f"{1e3 * x['sum_s']:.0f}", f"{100 * x['collision_share']:.0f} %",
@@ -204,7 +216,8 @@ TABLES = {
     "take": what_to_take, "take_vector": what_to_take_on_vector_units,
     "field": lambda: ladders("field", "most_threads"), "field_serial": lambda: ladders("field", "one_thread", "over_serial"),
     "lanes": lambda: ladders("lanes", "most_threads"), "vector_gain": vector_gain, "full_size": full_size,
-    "sets_and_blocks": instruction_sets_and_blocks, "talk": talk, "talk_claims": talk_claims, "hash_sizes": hash_sizes,
+    "sets_and_blocks": instruction_sets_and_blocks, "talk_now": lambda: talk("3349c07"), "talk_now_claims": lambda: talk_claims("3349c07"), "talk_fastest": talk_fastest,
+    "talk": lambda: talk("8a2a02c"), "talk_claims": lambda: talk_claims("8a2a02c"), "hash_sizes": hash_sizes,
     "self_test": self_test,
 }
 
