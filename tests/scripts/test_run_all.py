@@ -128,7 +128,7 @@ def test_with_too_little_time_only_the_first_study_is_measured(sandbox):
     done = sandbox.run("./run_all.sh", "--no-install", "--limit", "60")
     assert done.returncode == 0, done.stderr
     run, = sandbox.calls("pairsum run")
-    assert run.startswith("pairsum run talk ") and budgets(sandbox) == [180]  # one round in any case
+    assert run.startswith("pairsum run talk ") and budgets(sandbox) == [192]  # one round in any case
     assert done.stdout.count("left out") == 1
     assert len(sandbox.calls("pairsum report")) == 1
 
