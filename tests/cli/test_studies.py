@@ -158,12 +158,11 @@ def test_a_plan_that_is_a_folder_or_missing(pairsum, tmp_path, files):
     assert files() == ["folder.json"]
 
 
-def test_list_names_the_plans_and_their_titles(pairsum):
-    text, plans = pairsum("list").stdout, json.loads(pairsum("list", "--json").stdout)["plans"]
+def test_list_has_the_plans_and_their_titles(pairsum):
+    plans = json.loads(pairsum("list", "--json").stdout)["plans"]
     assert {"quick", "talk", "m_sweep", "size", "granularity", "compilers", "self_test", "vector"} <= {p["name"] for p in plans}
     for plan in plans:
         assert json.loads(pairsum("run", plan["name"], "--show-plan").stdout)["title"] == plan["title"]
-        assert re.search(rf"^  {plan['name']} +{re.escape(plan['title'])}$", text, re.M)
 
 
 @pytest.mark.parametrize("words", [["worker", "99"], ["worker", "-1"], ["worker", "0"], ["worker"], ["worker", "x"]])
