@@ -135,7 +135,7 @@ measure() {
   if ((status == 124 || (status == 137 && SECONDS - began >= left))); then
     warn "the study $study was cut short by the time limit; its finished rounds are kept"
   elif ((status != 0)); then
-    tail -n 3 "$logs/run_$study.txt" >&2
+    grep -m 3 FAILED "$logs/run_$study.txt" >&2 || tail -n 3 "$logs/run_$study.txt" >&2
     stop "$status" "measuring the study $study failed (exit $status); all of its output: $logs/run_$study.txt"
   fi
   under_way=''
