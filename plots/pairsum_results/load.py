@@ -1,5 +1,6 @@
 """Rows to tidy tables: which rows count, which points they are of, and which points may be compared."""
 import dataclasses
+import pathlib
 from typing import Iterable
 
 import numpy as np
@@ -73,8 +74,8 @@ class Results:
         return self.points.groupby(keys, dropna=False, sort=False).ngroup()
 
 
-def load(paths: Iterable[str], allow_mixed: bool = False) -> Results:
-    """The rows of files, or of the files in folders.
+def load(paths: str | pathlib.Path | Iterable[str | pathlib.Path], allow_mixed: bool = False) -> Results:
+    """The rows of one or more files, or of the files in folders and the folders below.
 
     A round counts if it was finished and not voided; a point's round with an unverified row is left out as a whole.
     Raises ResultsError with one line for a bad file, for rows without a finished round, and for rows of different

@@ -47,7 +47,8 @@ _KINDS: dict[str, dict[str, Any]] = {
     "void": {"round": "from one", "reason": "text"},
     "end": {"plan": "hex", "reason": "text"}}
 _OPTIONAL = {"error", "work.vector_units"}
-_SINCE_3 = {"point.block", "workspace_bytes", "lost", "threads_worked", "work.flops", "work.bytes"}
+_SINCE_3 = {"lost", "threads_worked", "work.flops", "work.bytes"}
+_SELDOM_IN_2 = {"point.block", "workspace_bytes"}
 #: Objects whose keys are columns by their full names; those of the others, as "sum_s", tell what they are.
 _DOTTED = ("vector_units", "self_test")
 
@@ -96,6 +97,7 @@ class _Checked:
               dotted: str = "") -> pd.DataFrame:
         """One line per object, with the line's number as index; nothing but nulls where an object is null."""
         keys = {key.rstrip("?") for key in spec}
+        keys -= {key for key in keys if self.former and prefix + key in _SINCE_3}
         columns, parts = {}, []
         for line, one in zip(lines, objects):
             if not keys.issuperset(one):
@@ -130,7 +132,7 @@ class _Checked:
         except KeyError:
             found = [(line, one[name]) for line, one in zip(lines, objects) if name in one]
         full = prefix + name
-        if full not in _OPTIONAL and not (self.former and full in _SINCE_3):
+        if full not in _OPTIONAL and not (self.former and full in _SINCE_3 | _SELDOM_IN_2):
             self.fault(next(line for line, one in zip(lines, objects) if name not in one), f'key "{full}" is missing')
         return [line for line, _ in found], [value for _, value in found]
 
@@ -210,7 +212,8 @@ def read_file(path: pathlib.Path) -> dict[str, pd.DataFrame]:
     faults: list[tuple[int, str]] = []
     groups: dict[tuple[str, str], tuple[list[int], list[dict]]] = {}
     for line, row in enumerate(rows, 1):
-        for key, words in (("schema", SCHEMAS), ("kind", tuple(_KINDS))):
+        schemas = SCHEMAS[:1] if row.get("kind") == "backend" else SCHEMAS
+        for key, words in (("schema", schemas), ("kind", tuple(_KINDS))):
             if row.get(key) not in words:
                 said = " or ".join(json.dumps(w) for w in words)
                 faults.append((line, f'key "{key}" should be {said}, is {describe(row[key])}' if key in row
@@ -235,25 +238,35 @@ def read_file(path: pathlib.Path) -> dict[str, pd.DataFrame]:
             for kind, parts in frames.items()}
 
 
-def rows_paths(given: Iterable[str | pathlib.Path]) -> list[pathlib.Path]:
-    """The rows files of files and folders, each once."""
+def rows_paths(given: str | pathlib.Path | Iterable[str | pathlib.Path]) -> list[pathlib.Path]:
+    """The rows files of files and folders, each once; of a folder those below, too, without the empty ones that runs
+    leave which were ended at once. Raises ResultsError with one line."""
     paths: list[pathlib.Path] = []
-    for path in map(pathlib.Path, given):
+    for path in map(pathlib.Path, [given] if isinstance(given, (str, pathlib.Path)) else given):
         inside = [path]
         if path.is_dir():
-            inside = sorted(p for p in path.glob("*.jsonl") if p.is_file() and p.stat().st_size > 0)
+            inside = sorted(p for p in path.rglob("*.jsonl") if p.is_file() and p.stat().st_size > 0)
             if not inside:
-                raise ResultsError(f"{path}: has no rows files (*.jsonl) in it")
+                raise ResultsError(f"{path}: has no rows files (*.jsonl) in it, nor in the folders below")
         paths += inside
     if not paths:
         raise ResultsError("a report needs at least one rows file or folder")
     return list({path.resolve(): path for path in reversed(paths)}.values())[::-1]
 
 
-def read(given: Iterable[str | pathlib.Path]) -> dict[str, pd.DataFrame]:
-    """The rows of all files by kind, with "file" (0, 1, ...) and "source" (folder and file name) as columns."""
-    files = []
-    for number, path in enumerate(rows_paths(given)):
+def read(given: str | pathlib.Path | Iterable[str | pathlib.Path]) -> dict[str, pd.DataFrame]:
+    """The rows of all files by kind, with "file" (0, 1, ...) and "source" (folder and file name) as columns. Raises
+    ResultsError with one line for a bad file, and for two that hold the same round."""
+    paths, files = rows_paths(given), []
+    for number, path in enumerate(paths):
         source = (pathlib.Path(path.parent.name) / path.name).as_posix()
         files.append({kind: frame.assign(file=number, source=source) for kind, frame in read_file(path).items()})
-    return {kind: pd.concat([rows[kind] for rows in files], ignore_index=True) for kind in _KINDS}
+    # Without the empty ones, whose columns of floats would make floats of integers.
+    found = {kind: pd.concat([rows[kind] for rows in files if len(rows[kind])] or [files[0][kind]], ignore_index=True)
+             for kind in _KINDS}
+    same = ["study", "environment", "utc", "round"]
+    for again in found["round"][found["round"].duplicated(same)].itertuples():
+        first = found["round"].merge(pd.DataFrame([again])[same], on=same)["file"][0]
+        raise ResultsError(f"{paths[first]} and {paths[again.file]} both hold round {again.round} of {again.study} "
+                           f"({again.utc}): it counts once, so leave one of the files out")
+    return found

@@ -7,7 +7,7 @@ import pytest
 from conftest import ROOT
 
 import pairsum_results as pr
-from pairsum_results import rows
+from pairsum_results import rows, summary
 
 
 def changed(kind, /, **change):
@@ -52,6 +52,7 @@ WRONG = [
     (changed("round") + [made.sample(made.point("naive"), 1.0, 2)], '10: key "round" names round 2, which a round row before it has closed'),
     (changed("peak", flops_per_s=0), '2: key "flops_per_s" should be a number > 0, is the number 0'),
     (changed("backend", symmetric="yes"), '3: key "symmetric" should be true or false, is "yes"'),
+    (changed("backend", schema="pairsum.row/2"), '3: key "schema" should be "pairsum.row/3", is "pairsum.row/2"'),
     (changed("environment", cores=True), '1: key "cores" should be an integer >= 1, is a boolean'),
 ]
 
@@ -103,14 +104,54 @@ def test_rows_of_both_schemas_give_the_same_times_and_null_for_what_is_not_said(
 
 
 def test_the_reader_knows_the_keys_of_the_row_schema():
-    schema = json.loads((ROOT / "harness/rows/row.schema.json").read_text())
-    if "pairsum.row/3" not in json.dumps(schema):
-        pytest.skip("the schema is that of the former rows")
-    known = schema["definitions"]
+    known = json.loads((ROOT / "harness/rows/row.schema.json").read_text())["definitions"]
     for kind, spec in rows._KINDS.items():
         keys = {key.rstrip("?") for key in spec} | {"schema", "kind", "study", "utc"}
         assert keys == set(known[kind]["properties"]), kind
     assert set(rows._POINT) == set(known["point"]["properties"]) and set(rows._WORK) == set(known["work"]["properties"])
+
+
+@pytest.mark.parametrize("place", ["lost", "threads_worked", "work__flops", "work__bytes"])
+def test_rows_of_schema_2_have_nothing_of_schema_3(tmp_path, place):
+    content = [row for row in map(made.former, changed("sample")) if row]
+    *path, key = place.split("__")
+    inner = next(row for row in content if row["kind"] == "sample")
+    for name in path:
+        inner = inner[name]
+    inner[key] = 1
+    with pytest.raises(pr.ResultsError, match=rf':3: key "{place.replace("__", ".")}" is not known in this kind of row$'):
+        pr.load([made.write(tmp_path / "rows.jsonl", content)])
+
+
+def test_one_path_is_taken_as_a_path(tmp_path):
+    path = made.write(tmp_path / "rows.jsonl", changed("sample"))
+    assert len(pr.load(str(path)).points) == len(pr.load(path).points) == len(pr.load(tmp_path).points) == 1
+
+
+def test_folders_are_read_with_those_below_and_without_empty_files(tmp_path):
+    made.write(tmp_path / "talk/rows.jsonl", changed("sample"))
+    (tmp_path / "talk/killed.jsonl").write_text("")
+    assert pr.load(tmp_path).sources == ["talk/rows.jsonl"]
+    with pytest.raises(pr.ResultsError, match="killed.jsonl: is empty"):
+        pr.load(tmp_path / "talk/killed.jsonl")
+
+
+def test_a_copy_of_a_rows_file_gives_no_new_rounds(tmp_path):
+    first, content = made.write(tmp_path / "rows.jsonl", changed("sample")), changed("sample")
+    copy = made.write(tmp_path / "copy.jsonl", content)
+    with pytest.raises(pr.ResultsError) as caught:
+        pr.load([first, copy])
+    assert str(caught.value).startswith(f"{first} and {copy} both hold round 1 of talk (2026-11-22T15:30:00.123Z): ")
+    made.write(copy, [{**row, "utc": "2026-11-23T15:30:00Z"} for row in content])  # measured the next day
+    assert pr.load([first, copy]).points["rounds"].to_list() == [4]
+
+
+def test_integers_stay_integers_beside_a_file_without_such_rows(tmp_path):
+    made.write(tmp_path / "a.jsonl", changed("sample"))
+    later = [{**row, "utc": "2026-11-23T15:30:00Z"} for row in made.study([(made.point("naive"), 1.0)], 2)]
+    made.write(tmp_path / "b.jsonl", later)
+    found = summary.summary(pr.report(pr.load(tmp_path)))
+    assert [type(peak["threads"]) for peak in found["peaks"]] == [int]
 
 
 def test_void_unfinished_and_unverified_rounds_do_not_count(tmp_path):

@@ -1,20 +1,25 @@
 """The JSON Schema of a row against rows written by the program: it accepts them, and rejects broken
-ones exactly where the strict reader does. CTest names the program in PAIRSUM_ROWS_EXAMPLE. Every rows
-file under results/ is held against it, too."""
+ones exactly where the strict readers of the program and of Python do. CTest names the program in
+PAIRSUM_ROWS_EXAMPLE. Every committed rows file is held against it, too."""
 
 import copy
 import json
 import os
 import pathlib
 import subprocess
+import sys
 
 import jsonschema
 import pytest
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "plots"), str(ROOT / "tests")]
+from committed import committed  # noqa: E402
+from pairsum_results.rows import ResultsError, read_file  # noqa: E402
+
 PROGRAM = os.environ.get("PAIRSUM_ROWS_EXAMPLE")
-ROOT = pathlib.Path(__file__).parents[2]
 SCHEMA = ROOT / "harness" / "rows" / "row.schema.json"
-COMMITTED = sorted((ROOT / "results").glob("*/*.jsonl"))
+COMMITTED = committed("results/*/*.jsonl")
 
 pytestmark = pytest.mark.skipif(not PROGRAM, reason="PAIRSUM_ROWS_EXAMPLE names no rows_example")
 
@@ -57,10 +62,18 @@ def before(rows, row):
     return [environment]
 
 
-def reader_accepts(folder, lines):
+def readers_accept(folder, lines):
+    """Whether both readers do; they must agree."""
     path = folder / "check.jsonl"
     path.write_text("".join(json.dumps(line) + "\n" for line in lines))
-    return subprocess.run([PROGRAM, "check", path], capture_output=True).returncode == 0
+    accepts = subprocess.run([PROGRAM, "check", path], capture_output=True).returncode == 0
+    try:
+        read_file(path)
+    except ResultsError as problem:
+        assert not accepts, problem
+    else:
+        assert accepts, lines[-1]
+    return accepts
 
 
 def places(value, at=()):
@@ -116,22 +129,22 @@ def test_schema_and_reader_agree_on_changed_values(rows, former, validator, tmp_
         for place in places(row):
             broken = changed(row, place, new)
             lines = [*before(rows, dict(row, point=broken.get("point"))), broken]
-            assert validator.is_valid(broken) == reader_accepts(tmp_path, lines), (place, new)
+            assert validator.is_valid(broken) == readers_accept(tmp_path, lines), (place, new)
 
 
 @pytest.mark.parametrize("place, new", [
     (("lost",), 0), (("threads_worked",), 1), (("work", "flops"), 1.0), (("work", "bytes"), None), (("kind",), "backend"),
 ])
 def test_rows_of_schema_2_have_nothing_of_schema_3(rows, former, validator, tmp_path, place, new):
-    assert validator.is_valid(former) and reader_accepts(tmp_path, [*before(rows, former), former])
+    assert validator.is_valid(former) and readers_accept(tmp_path, [*before(rows, former), former])
     broken = changed(former, place, new)
     assert not validator.is_valid(broken)
-    assert not reader_accepts(tmp_path, [*before(rows, former), broken])
+    assert not readers_accept(tmp_path, [*before(rows, former), broken])
 
 
-def test_backends_are_rows_of_schema_3(rows, validator):
-    backend = next(row for row in rows if row["kind"] == "backend")
-    assert not validator.is_valid(dict(backend, schema="pairsum.row/2"))
+def test_backends_are_rows_of_schema_3(rows, validator, tmp_path):
+    backend = dict(next(row for row in rows if row["kind"] == "backend"), schema="pairsum.row/2")
+    assert not validator.is_valid(backend) and not readers_accept(tmp_path, [*before(rows, backend), backend])
 
 
 @pytest.mark.parametrize("place, new", [
@@ -147,7 +160,7 @@ def test_backends_are_rows_of_schema_3(rows, validator):
 def test_samples_with_a_wrong_value_are_rejected(rows, sample, validator, tmp_path, place, new):
     broken = changed(sample, place, new)
     assert not validator.is_valid(broken)
-    assert not reader_accepts(tmp_path, [*before(rows, sample), broken])
+    assert not readers_accept(tmp_path, [*before(rows, sample), broken])
 
 
 def complaints(path, validator):
