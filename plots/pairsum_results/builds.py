@@ -19,6 +19,16 @@ def builds(rows: pd.DataFrame, samples: pd.DataFrame) -> tuple[pd.DataFrame, pd.
     return found.drop_duplicates(["environment", "host", "git"]).reset_index(drop=True), found
 
 
+def names(table: pd.DataFrame, columns: list[str]) -> pd.Series:
+    """Of every line its first column, with as many of the others as tell the lines apart, if they do."""
+    name = table[columns[0]]
+    for column in columns[1:]:
+        several = table[column].nunique(dropna=False) > 1 and name.duplicated(keep=False).any()
+        unit = " cores" if column == "cores" else ""
+        name = name + (", " + table[column].fillna("").astype(str) + unit if several else "")
+    return name
+
+
 def differences(environments: pd.DataFrame) -> str:
     """What differs between machines and builds, like "host (a, b), git (x, y)"."""
     columns = {"host": "host", "cpu": "cpu", "compiler": "compiler", "flags": "flags", "git": "revision",

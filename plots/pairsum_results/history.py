@@ -7,14 +7,16 @@ import numpy as np
 import pandas as pd
 
 from . import stats, words
+from .builds import names
 from .compare import judged
 from .load import POINT, Results, collect
-from .rows import ResultsError, read
+from .rows import read
 from .self_tests import self_tests
 
 #: What tells machines apart, with the way the program was built and bound there.
 _MACHINE = ["host", "cpu", "cores", "compiler", "binding"]
 _HARDWARE = _MACHINE[:3]
+_ROUND = ["file", "study", "round"]
 
 
 @dataclasses.dataclass
@@ -28,8 +30,9 @@ class History:
                `label` and `world` (its problem)
     steps      a line per `line` and two successive revisions in which it was measured, `base_revision` and `revision`:
                `base_time_s`, `time_s`; `ratio` (above 1: faster now), `low`, `high`, `p`, `rounds`, `verdict` as in
-               compare.py, over the whole table; `machine_ratio`: what the machine's own pace contributed to the ratio
-               of the times, and is taken out (null without paces); `newest`: it is the newest revision of its machine
+               compare.py, over all that are `newest` and over all others; `machine_ratio`: what the machine's own pace
+               contributed to the ratio of the times, and is taken out (null without paces); `newest`: it is the newest
+               revision of its machine
     elsewhere  a line per point that two machines measured with one revision: `line`, `base` (lines), `revision`,
                `time_s`, `base_time_s`, `ratio`, `low`, `high`; `flops_ratio`, `bandwidth_ratio` of the machines' peaks
     dirty      rounds left out: uncommitted changes have no revision
@@ -50,20 +53,9 @@ class History:
         return self.steps[self.steps["newest"] & (self.steps["verdict"] == "slower")].sort_values("ratio")
 
 
-def rows_below(given: Iterable[str | pathlib.Path]) -> list[pathlib.Path]:
-    """Rows files, and those of folders and the folders in them. Raises ResultsError for a folder without any."""
-    paths = []
-    for path in map(pathlib.Path, given):
-        inside = sorted(path.rglob("*.jsonl")) if path.is_dir() else [path]
-        if not inside:
-            raise ResultsError(f"{path}: has no rows files (*.jsonl) in it, nor in the folders below")
-        paths += inside
-    return paths
-
-
-def load_history(given: Iterable[str | pathlib.Path], phase: str = "sum_s") -> History:
+def load_history(given: str | pathlib.Path | Iterable[str | pathlib.Path], phase: str = "sum_s") -> History:
     """The history of rows files and folders; see history."""
-    return history(collect(read(rows_below(given)), allow_mixed=True), phase)
+    return history(collect(read(given), allow_mixed=True), phase)
 
 
 def history(results: Results, phase: str = "sum_s") -> History:
@@ -75,10 +67,10 @@ def history(results: Results, phase: str = "sum_s") -> History:
     summation is the same in every step, so `sum_s` is compared nevertheless."""
     builds, machines, revisions = _builds(results)
     rounds = results.rounds[results.rounds["point"].isin(results.times(phase).dropna().index)]
-    rounds = rounds.merge(results.paces, on=["file", "round", "study", "build", "threads", "precision"], how="left")
+    rounds = rounds.merge(results.paces, on=[*_ROUND, "build", "threads", "precision"], how="left")
     rounds = rounds.join(builds[["machine", "revision"]], on="build")
     rounds = rounds.join(results.points[["seed", "steps"]], on="point")
-    dirty = rounds.loc[rounds["revision"] < 0, ["file", "round"]].drop_duplicates()
+    dirty = rounds.loc[rounds["revision"] < 0, _ROUND].drop_duplicates()
     rounds = rounds[rounds["revision"] >= 0].reset_index(drop=True)
     what = rounds[["seed", *POINT] + (["steps"] if phase != "sum_s" else [])].fillna({"seed": 0, "M": 0})
     rounds["what"] = what.groupby(list(what)).ngroup()
@@ -94,6 +86,7 @@ def history(results: Results, phase: str = "sum_s") -> History:
     steps = _steps(cells, logs, paced)
     newest = rounds.groupby("machine")["revision"].max()
     steps["newest"] = steps["revision"] == steps["line"].map(lines["machine"]).map(newest)
+    steps = pd.concat([judged(some) for _, some in steps.groupby(~steps["newest"])] or [judged(steps)]).sort_index()
     elsewhere = _elsewhere(results, cells, lines, machines, builds, logs)
     compared = lines[lines.index.isin([*steps["line"], *elsewhere["line"], *elsewhere["base"]])]
     lines["label"], lines["world"] = _labels(compared), _worlds(compared)
@@ -116,18 +109,8 @@ def _builds(results: Results) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]
     builds["revision"] = builds["git"].map(pd.Series(range(len(first)), first.index)).where(
         builds.index.isin(clean.index), -1).astype(int)
     machines = builds.drop_duplicates("machine").set_index("machine")[keys]
-    machines["name"] = _machine_names(machines)
+    machines["name"] = names(machines, keys)
     return builds, machines, first.rename("utc").rename_axis("git").reset_index().rename_axis("revision")
-
-
-def _machine_names(machines: pd.DataFrame) -> pd.Series:
-    """The host, with what else tells machines apart, if anything does."""
-    name = machines["host"]
-    for column in _MACHINE[1:] + ["flags"]:
-        several = machines[column].nunique(dropna=False) > 1 and name.duplicated(keep=False).any()
-        unit = " cores" if column == "cores" else ""
-        name = name + (", " + machines[column].fillna("").astype(str) + unit if several else "")
-    return name
 
 
 def _labels(lines: pd.DataFrame) -> pd.Series:
@@ -146,7 +129,7 @@ def _worlds(lines: pd.DataFrame) -> pd.Series:
 
 
 def _logs(rounds: pd.DataFrame, value: str) -> pd.DataFrame:
-    return np.log(rounds.groupby(["file", "round", "cell"])[value].mean()).unstack("cell")
+    return np.log(rounds.groupby([*_ROUND, "cell"])[value].mean()).unstack("cell")
 
 
 def _steps(cells: pd.DataFrame, logs: pd.DataFrame, paced: pd.DataFrame) -> pd.DataFrame:
@@ -157,7 +140,7 @@ def _steps(cells: pd.DataFrame, logs: pd.DataFrame, paced: pd.DataFrame) -> pd.D
     own, of_base = cells.loc[now].reset_index(drop=True), cells.loc[base].add_prefix("base_").reset_index(drop=True)
     steps = pd.concat([own[["line", "revision", "time_s"]], of_base[["base_revision", "base_time_s"]]], axis=1)
     steps["machine_ratio"] = (raw["ratio"] / found["ratio"]).where(known)
-    return judged(steps.join(found.where(pd.Series(known), raw)))
+    return steps.join(found.where(pd.Series(known), raw))
 
 
 def _elsewhere(results: Results, cells: pd.DataFrame, lines: pd.DataFrame, machines: pd.DataFrame,

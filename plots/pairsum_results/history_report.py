@@ -1,23 +1,26 @@
 """The history in words, as a page with a line per point, and as files."""
 import pathlib
-from typing import Any, Iterator
+from typing import Iterator
 
-import jinja2
 import numpy as np
 import pandas as pd
 
+from . import figures
 from .compare import first_few
+from .figures import revisions
+from .figures.inline import inline
+from .figures.sheet import sheet
 from .history import History
+from .page import Markup, filled, html_table
 from .summary import write_file
+from .tables import Table
 from .words import bounded, hoisted, ms, text_table, threads_words, wrapped
 
 _WORDS = 5  #: columns of both tables that hold words, at their left
 _FEW = 10  #: lines of a table in the text; the page has all
-#: The drawing of a panel, in pixels: inside its frame, and the frame's left and top.
-WIDTH, HEIGHT, LEFT, TOP = 190, 90, 40, 8
+_LOOK = figures.Look(panel=3.4, columns=1, font=8)
 _MANY = 5  #: points that move together are suspicious
 _LEAST_SPAN = np.log(1.05)
-_APART = 11  #: pixels between words beside a panel
 
 
 def _few(caption: str, header: list[str], rows: list[list[str]]) -> str:
@@ -52,7 +55,8 @@ def _sentence(h: History) -> str:
         if len(table):
             said.append(f"{count.get('slower', 0)} of {len(table)} points got slower, {count.get('faster', 0)} faster, "
                         f"{count.get('not resolved', 0)} not resolved, {when}")
-    return wrapped(f"{'; '.join(said)} ({h.phase.removesuffix('_s')}, 95 % confidence over all).")
+    return wrapped(f"{'; '.join(said)} ({h.phase.removesuffix('_s')}, 95 % confidence over "
+                   f"{'all' if len(said) == 1 else 'each of the two'}).")
 
 
 def notes(h: History) -> list[str]:
@@ -120,78 +124,47 @@ _MACHINE_HEADER = ["point", "problem", "machine", "second", "revision", "ms", "m
                    "flops", "bandwidth"]
 
 
-def _tracks(h: History) -> pd.DataFrame:
-    """A line per line and revision: log of the time over that of its first revision, machine's pace taken out, with the
-    step that led there; ordered by line and revision."""
+def tracks(h: History) -> pd.DataFrame:
+    """A line per line and revision, ordered by these: `over_first`, its time over that of its first revision, machine's
+    pace taken out, with `over_first_low` and `over_first_high` by the step that led there; the columns of the step."""
     steps = _named(h, h.steps)
-    change = -np.log(steps["ratio"])
-    steps["log"] = change.groupby(steps["line"]).cumsum()
-    before = steps["log"] - change
-    steps["log_low"], steps["log_high"] = before - np.log(steps["high"]), before - np.log(steps["low"])
+    over_first = (1 / steps["ratio"]).groupby(steps["line"]).cumprod()
+    before = over_first * steps["ratio"]
+    steps = steps.assign(over_first=over_first, over_first_low=before / steps["high"],
+                         over_first_high=before / steps["low"])
     first = steps.drop_duplicates("line")
-    first = first.assign(revision=first["base_revision"], git=first["base_git"], time_s=first["base_time_s"], log=0.0,
-                         log_low=np.nan, log_high=np.nan, verdict="first", newest=False)
-    return pd.concat([first, steps]).sort_values(["line", "revision"], kind="stable")
-
-
-def sections(h: History) -> list[dict[str, Any]]:
-    """What the page draws: sections of panels, those that changed first. A panel has the lines of one backend on one
-    machine and problem that differ in threads."""
-    tracks = _tracks(h)
-    if tracks.empty:
-        return []
-    tracks["name"] = tracks["label"].str.replace(r" threads=\d+$", "", regex=True)
-    panels = [_panel(own) for _, own in tracks.groupby(["machine", "world", "name"], sort=False)]
-    titles = {"slower": "Slower in the newest revision", "changed": "Changed", "same": "No change resolved"}
-    found = [{"kind": kind, "title": title, "panels": sorted((p for p in panels if p["kind"] == kind),
-                                                            key=lambda p: -p["change"])}
-             for kind, title in titles.items()]
-    return [section for section in found if section["panels"]]
-
-
-def _panel(tracks: pd.DataFrame) -> dict[str, Any]:
-    gits = tracks.sort_values("revision")["git"].unique()
-    x = pd.Series(LEFT + WIDTH * (np.arange(len(gits)) + 0.5) / len(gits), gits)
-    most, ends = tracks["log"].abs().max(), tracks[["log_low", "log_high"]].abs().max().max()
-    span = np.nanmax([_LEAST_SPAN, 1.1 * most, min(1.05 * ends, 2 * most)])
-    tracks = tracks.assign(x=tracks["git"].map(x), **{f"y{end}": TOP + HEIGHT / 2 * (1 - tracks[f"log{end}"].clip(
-        -span, span) / span) for end in ("", "_low", "_high")})
-    lines = [_line(own) for _, own in tracks.groupby("line")]
-    reached = -np.inf
-    for line in sorted(lines, key=lambda line: line["end"]):
-        line["words_y"] = reached = max(line["end"], reached + _APART)
-    first, resolved = tracks.iloc[0], tracks["verdict"].isin(["slower", "faster"])
-    kind = ("slower" if (tracks["newest"] & (tracks["verdict"] == "slower")).any() else
-            "changed" if resolved.any() else "same")
-    change = np.log(tracks["ratio"]).abs()
-    return {"title": first["name"], "world": first["world"], "machine": first["machine_name"], "kind": kind,
-            "change": (change[resolved] if resolved.any() else change).max(), "lines": lines,
-            "gits": [(x[git], git[:7]) for git in gits], "most": f"{np.exp(span):.2f}", "least": f"{np.exp(-span):.2f}"}
-
-
-def _line(own: pd.DataFrame) -> dict[str, Any]:
-    dots = [{"x": e.x, "y": e.y, "low": e.y_low, "high": e.y_high, "verdict": e.verdict,
-             "words": f"{e.label}, {e.git}: {ms(e.time_s)} ms" + ("" if e.verdict == "first" else
-                      f", ratio to {e.base_git} {bounded(e.ratio, e.low, e.high, 3)}, {e.verdict}")}
-            for e in own.itertuples()]
-    resolved = own.loc[own["verdict"].isin(["slower", "faster"]), "verdict"]
-    return {"path": " ".join(f"{dot['x']:.1f},{dot['y']:.1f}" for dot in dots), "dots": dots, "end": dots[-1]["y"],
-            "verdict": resolved.iloc[-1] if len(resolved) else "same", "threads": own["threads"].iloc[0]}
+    first = first.assign(revision=first["base_revision"], git=first["base_git"], time_s=first["base_time_s"], ratio=1.0,
+                         over_first=1.0, over_first_low=np.nan, over_first_high=np.nan, verdict="first", newest=False)
+    found = pd.concat([first, steps]).sort_values(["line", "revision"], kind="stable", ignore_index=True)
+    return found.assign(name=found["label"].str.replace(r" threads=\d+$", "", regex=True))
 
 
 def page(h: History) -> str:
     """One HTML file that needs no other."""
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent), autoescape=True,
-                                     trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    found = revisions.sections(tracks(h)) if len(h.steps) else {}
+    panels = [(title, panel) for title, some in found.items() for panel in some]
+
+    def drawn(k: int) -> str:
+        panel = panels[k][1]
+        with figures.applied(_LOOK):
+            return inline(sheet([panel], _LOOK), _LOOK, f"{k}", f"{panel.title}, time over revisions")
+
+    sections: dict[str, list[Markup]] = {}
+    for (title, _), svg in zip(panels, figures.on_all_cores(drawn, range(len(panels)))):
+        sections.setdefault(title, []).append(Markup(svg))
     changed = h.steps[h.steps["verdict"] != "not resolved"].sort_values(["newest", "ratio"], ascending=[False, True])
     rows = [[*row, verdict] for row, verdict in zip(_cells(h, changed), changed["verdict"])]
-    tables = [hoisted("Time before over time now: above 1 is faster, the machine's pace taken out; pace: how much "
-                       "more the machine itself did", [*_HEADER, "now"], rows, _WORDS)[:3],
-              hoisted("Time on the first machine over time on the second; flops and bandwidth: peaks of the second "
-                       "over those of the first on as many threads", _MACHINE_HEADER, list(_machine_cells(h)), _WORDS)[:3]]
-    return environment.get_template("history.html.j2").render(
-        answer=_sentence(h), notes=notes(h), sections=sections(h), changes=tables[0], machines=tables[1], left=LEFT,
-        top=TOP, width=WIDTH, height=HEIGHT, phase=h.phase.removesuffix("_s"), revisions=h.revisions)
+    tables = {
+        "Changes": Table(*hoisted("Time before over time now: above 1 is faster, the machine's pace taken out; pace: "
+                                  "how much more the machine itself did", [*_HEADER, "now"], rows, _WORDS)),
+        "Two machines": Table(*hoisted("Time on the first machine over time on the second; flops and bandwidth: peaks "
+                                       "of the second over those of the first on as many threads", _MACHINE_HEADER,
+                                       list(_machine_cells(h)), _WORDS)),
+        "Revisions": Table("In the order in which they were first measured", ["revision", "first measured (UTC)"],
+                           h.revisions.to_numpy().tolist(), 2)}
+    return filled("history.html.j2", answer=_sentence(h), notes=notes(h), sections=sections,
+                  open=revisions.SECTIONS[:2], phase=h.phase.removesuffix("_s"),
+                  tables={title: html_table(table) for title, table in tables.items() if table.rows})
 
 
 def write(h: History, folder: pathlib.Path) -> str:

@@ -40,18 +40,23 @@ def write(reports: list[Report], folder: pathlib.Path) -> list[pathlib.Path]:
 def text(reports: list[Report], drawn: list[list[tuple[Sheet, str]]], folder: pathlib.Path) -> str:
     """The HTML of the page. It loads nothing from anywhere; its links lead to files of the folder that exist."""
     script = (_HERE / "page.js").read_text()
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
-                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     case, threads = board.start(reports[0])
     machines = list(map(_machine, reports))
-    return environment.get_template("page.html.j2").render(
-        machines=machines, title=reports[0].title, case=case, threads=threads, families=FAMILIES,
+    return filled(
+        "page.html.j2", machines=machines, title=reports[0].title, case=case, threads=threads, families=FAMILIES,
         cases=list(dict.fromkeys(world for one in machines for world in one["worlds"])),
         counts=sorted({count for one in machines for _, count in one["ladders"]}),
         figures=_figures(drawn), links=lambda *names: _links(folder, drawn[0], names), ladder=ladder.LADDER,
         heat=cases.CASES, tables=_by_heading(map(_tables, reports)), facts=_by_heading(map(_facts, reports)),
-        style=Markup((_HERE / "page.css").read_text()), script=Markup(script),
+        script=Markup(script),
         script_hash="sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode())
+
+
+def filled(template: str, **values: Any) -> str:
+    """A template of html/ with these values and the style of all pages."""
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    return environment.get_template(template).render(style=Markup((_HERE / "page.css").read_text()), **values)
 
 
 def _machine(report: Report) -> dict[str, Any]:
@@ -62,7 +67,7 @@ def _machine(report: Report) -> dict[str, Any]:
             "details": report.answer.details if report.answer else "", "sources": report.results.sources}
 
 
-def _html(table: tables.Table) -> dict[str, Any]:
+def html_table(table: tables.Table) -> dict[str, Any]:
     frame = pd.DataFrame(table.rows, columns=table.header)
     with pd.option_context("display.max_colwidth", None):
         return {"caption": table.caption, "lines": len(frame), "html": Markup(frame.to_html(
@@ -84,12 +89,12 @@ def _tables(report: Report) -> _Headed:
     """(case, table) by heading: what stands first in the captions."""
     found: _Headed = {}
     for world, table in every_table(report):
-        found.setdefault(re.split("[:;,]", table.caption)[0], []).append((world, _html(table)))
+        found.setdefault(re.split("[:;,]", table.caption)[0], []).append((world, html_table(table)))
     return found
 
 
 def _facts(report: Report) -> _Headed:
-    return {re.split("[:;]", table.caption)[0]: [("", _html(table))] for table in facts(report) if table.rows}
+    return {re.split("[:;]", table.caption)[0]: [("", html_table(table))] for table in facts(report) if table.rows}
 
 
 def _by_heading(of_machines: Iterable[_Headed]) -> dict[str, list[list[tuple[str, Any]]]]:

@@ -1,5 +1,6 @@
 """Numbers and points in words, for people."""
 import difflib
+import textwrap
 from typing import Callable, Iterable
 
 import numpy as np
@@ -102,14 +103,8 @@ def hoisted(caption: str, header: list[str], rows: list[list[str]], left: int
 
 def wrapped(text: str, width: int = 120) -> str:
     """Lines of at most `width` characters; all but the first are indented."""
-    lines, line = [], ""
-    for word in text.split():
-        if line and len(line) + 1 + len(word) > width:
-            lines.append(line)
-            line = "    " + word
-        else:
-            line += (" " if line else "") + word
-    return "\n".join([*lines, line]) + "\n"
+    return textwrap.fill(" ".join(text.split()), width, subsequent_indent="    ", break_long_words=False,
+                         break_on_hyphens=False) + "\n"
 
 
 def text_table(header: list[str], rows: Iterable[list[str]], left: int) -> str:

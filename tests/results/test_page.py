@@ -11,12 +11,13 @@ import browser
 import made
 import pandas as pd
 import pytest
-from conftest import ROOT
+from committed import committed
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select
 
 import pairsum_results as pr
-from pairsum_results import figures, page, summary
+from pairsum_results import figures, history_report, page, summary
+from pairsum_results.history import load_history
 
 WIDTHS = (1280, 390)
 EVIL = '<script>window.taken = 1</script><img src=x onerror="window.taken = 2">"\'{{ 7 * 7 }}</title>'
@@ -50,8 +51,9 @@ def both(report, other, tmp_path_factory):
 
 
 @pytest.fixture(scope="module", params=["talk", "field"])
-def committed(request, tmp_path_factory):
-    return written([pr.report(pr.load([ROOT / "results" / request.param]))], tmp_path_factory.mktemp(request.param))
+def real(request, tmp_path_factory):
+    newest = committed(f"results/{request.param}/*.jsonl")[-1]
+    return written([pr.report(pr.load(newest))], tmp_path_factory.mktemp(request.param))
 
 
 def written(reports, folder):
@@ -62,6 +64,19 @@ def written(reports, folder):
 
 
 @pytest.fixture(scope="module")
+def past(tmp_path_factory):
+    """The page of a history in which one point got slower and another faster."""
+    folder = tmp_path_factory.mktemp("history")
+    for day, change in ((1, {}), (2, {"symmetric_omp": 2, "naive": 0.5})):
+        e = made.environment(f"{day:016x}", git=f"{day}abcdef", utc=f"2026-11-0{day}T00:00:00Z")
+        points = [(place, time * change.get(place["backend"], 1), {"environment": e["environment"]})
+                  for place, time in made.talk()]
+        made.write(folder / f"{day}.jsonl", made.study(points, before=[e]))
+    history_report.write(load_history(folder), folder)
+    return folder / "history.html"
+
+
+@pytest.fixture(scope="module")
 def chromium():
     driver = browser.start()
     yield driver
@@ -69,8 +84,8 @@ def chromium():
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_the_page_is_quiet_loads_nothing_and_fits(chromium, one, both, width):
-    for path in (one, both):
+def test_the_page_is_quiet_loads_nothing_and_fits(chromium, one, both, past, width):
+    for path in (one, both, past):
         browser.show(chromium, path, width)
         assert browser.console(chromium) == [] and browser.requests(chromium, path) == []
         browser.open_all(chromium)
@@ -218,8 +233,8 @@ def test_questions_are_a_line_each_with_the_rest_folded(chromium, report, one):
         assert q["answer"] in line.text
 
 
-def test_links_lead_to_files_of_the_report(chromium, one, committed):
-    for path in (one, committed):
+def test_links_lead_to_files_of_the_report(chromium, one, real):
+    for path in (one, real):
         browser.show(chromium, path)
         browser.open_all(chromium)
         links = {link.get_attribute("href") for link in chromium.find_elements(By.CSS_SELECTOR, ".links a")}
@@ -228,8 +243,8 @@ def test_links_lead_to_files_of_the_report(chromium, one, committed):
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_no_cell_is_clipped(chromium, one, both, committed, width):
-    for path in (one, both, committed):
+def test_no_cell_is_clipped(chromium, one, both, real, width):
+    for path in (one, both, real):
         browser.show(chromium, path, width)
         browser.show_all(chromium)
         assert browser.clipped(chromium) == []
@@ -252,21 +267,21 @@ def test_a_clipped_cell_is_found(chromium, tmp_path, table, why):
     assert browser.clipped(chromium) == []
 
 
-def test_the_first_screens_are_few_and_pngs_fit_a_slide(chromium, committed):
-    browser.show(chromium, committed)
+def test_the_first_screens_are_few_and_pngs_fit_a_slide(chromium, real):
+    browser.show(chromium, real)
     top = chromium.execute_script("return document.getElementById('tables').getBoundingClientRect().top + scrollY")
     assert 600 < top <= HIGHEST
-    pngs = sorted(committed.parent.glob("*.png"))
-    assert {"ladder", "cases"} <= {path.stem for path in pngs} and not list(committed.parent.glob("*.svg"))
+    pngs = sorted(real.parent.glob("*.png"))
+    assert {"ladder", "cases"} <= {path.stem for path in pngs} and not list(real.parent.glob("*.svg"))
     sizes = {path.name: struct.unpack(">II", path.read_bytes()[16:24]) for path in pngs}
     assert {name: size for name, size in sizes.items() if size[0] > 1600 or size[1] > 1200} == {}
     assert min(wide for wide, _ in sizes.values()) > 600
 
 
-def test_texts_are_people_s_words(chromium, one, committed):
-    keys = {name for name in (*_columns(pr.load([ROOT / "results/talk"])), "share_of_bound") if "_" in name}
+def test_texts_are_people_s_words(chromium, one, real):
+    keys = {name for name in (*_columns(pr.load(committed("results/talk/*.jsonl")[-1])), "share_of_bound") if "_" in name}
     assert {"n_fluid", "sum_s", "others_share", "share_of_bound", "bandwidth_bytes_per_s"} <= keys
-    for path in (one, committed):
+    for path in (one, real):
         browser.show(chromium, path)
         browser.show_all(chromium)
         said = set(re.findall(r"\w+", chromium.find_element(By.TAG_NAME, "body").text))
