@@ -46,7 +46,7 @@ def _report_program(programs) -> None:
         "report", help="tables, figures and a page from rows files", description="Tables (text, Markdown, CSV), "
         "summary.json, figures and one page, report.html, from rows files. Rows that failed their verification never "
         "enter a table, nor do rounds that were cut.")
-    program.add_argument("inputs", nargs="+", metavar="FILE", help="rows files, or folders of them")
+    program.add_argument("inputs", nargs="+", metavar="FILE", help="rows files, or folders of them, with the folders below")
     program.add_argument("--out", metavar="DIR", type=pathlib.Path,
                          help="folder for the files (default: named like the rows file, beside it)")
     program.add_argument("--tables", action="store_true", help="print the tables; write them, CSV and summary.json alone: no figures, no page")
@@ -65,6 +65,8 @@ def _report(options: argparse.Namespace) -> None:
     from .answers import said_of
 
     first = pathlib.Path(options.inputs[0])
+    if not options.out and first.is_file() and first.suffix != ".jsonl":
+        raise ResultsError(f"{first} does not end in .jsonl, so --out DIR should name the folder for the files")
     folder = options.out or (first if first.is_dir() else first.with_suffix(""))
     said = report(load(options.inputs, options.allow_mixed))
     others = [report(load([path], options.allow_mixed)) for path in options.beside]

@@ -129,10 +129,10 @@ def compiler_comparison(results: Results) -> pd.DataFrame:
     """Every point of the first build (`base_build`) against the same of the others (`build`, as compiler and revision),
     if builds are what the study compares."""
     points = results.points.reset_index()
-    points = points[points["point"].map(results.times().notna())]
+    points = points[points["point"].map(results.times().notna())].astype({"seed": str})
     if not results.compares_builds:
         points = points.iloc[:0]
-    same = [name for name in results.series.columns if name in points and name not in ("build", "seed")] + PLACE
+    same = [name for name in results.series.columns if name in points and name != "build"] + PLACE
     pairs = points[points["build"] == 0].merge(points[points["build"] > 0], on=same, suffixes=("_base", ""))
     pairs = pairs.sort_values(["point_base", "point"])
     names = results.series["build_name"]

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from . import stats
-from .builds import differences
+from .builds import differences, names
 from .compare import best
 from .ladders import made_for
 from .load import PLACE, POINT, Results, cells_words, collect, load, place_words
@@ -43,9 +43,11 @@ class Comparison:
 
     def document(self) -> dict[str, Any]:
         """The same as values (comparison.schema.json). Times in seconds; ratios and verdicts at 95 %."""
-        columns, time = ["study", *POINT, "rounds"], f"{self.phase}_s"
-        own, of_base = (side.points.loc[self.pairs[f"point_{name}"], [*columns, time]].rename(columns={time: "time_s"})
-                        .to_dict(orient="records") for side, name in zip(self.sides, "ab"))
+        columns, time = ["study", "build_name", "seed", *POINT, "rounds"], f"{self.phase}_s"
+        points = [side.points.join(side.series["build_name"], on="series").rename(columns={time: "time_s"})
+                  for side in self.sides]
+        own, of_base = (some.loc[self.pairs[f"point_{name}"], [*columns, "time_s"]].to_dict(orient="records")
+                        for some, name in zip(points, "ab"))
         ratios = self.pairs[["ratio", "low", "high", "rounds", "verdict"]].to_dict(orient="records")
         return plain({"schema": SCHEMA, "a": self.a, "b": self.b, "phase": self.phase, "differ": self.differ or None,
                       "pairs": [{"a": p, "b": q, **ratio} for p, q, ratio in zip(own, of_base, ratios)],
@@ -54,9 +56,10 @@ class Comparison:
 
 
 def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_mixed: bool = False) -> Comparison:
-    """Every point that both sides have, compared. Backends, with words like precision=mixed for what
-    else may differ, and revisions measured in the same rounds are paired by round; what was measured apart is not
-    (Welch). Raises ResultsError with one line for sides that are neither, or that must not be compared."""
+    """Every point that both sides have, compared. Backends, with words like precision=mixed for what else may differ,
+    are compared within each study and build. They, and revisions measured in the same rounds, are paired by round;
+    what was measured apart is not (Welch). Raises ResultsError with one line for sides that are neither, or that must
+    not be compared."""
     phases = [name.removesuffix("_s") for name in PHASES]
     if phase not in phases:
         raise ResultsError(unknown("phase", phase, phases))
@@ -68,12 +71,12 @@ def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_m
                            "comparison takes two backends, two rows files or two revisions")
     differ = ""
     if all(are_files):
-        sides = [load([side]) for side in (a, b)]
+        sides = [load(side, allow_mixed) for side in (a, b)]
         logs = pd.concat([side.logs(f"{phase}_s").add_prefix(name) for side, name in zip(sides, "ab")], keys="ab")
     elif (rows := read(inputs)) and _are_backends(a, b, rows):
-        sides = [collect(rows, allow_mixed)] * 2
+        sides = [collect(rows, allow_mixed=True)] * 2  # a pair is of one build
     else:
-        sides = [collect(_of_revision(rows, side)) for side in (a, b)]
+        sides = [collect(_of_revision(rows, side), allow_mixed) for side in (a, b)]
     if sides[0] is not sides[1]:
         for side, name in zip(sides, (a, b)):
             if side.compares_builds:
@@ -82,10 +85,10 @@ def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_m
         differ = _differences(sides, allow_mixed)
     if not all(are_files):
         logs = pd.concat([side.logs(f"{phase}_s").add_prefix(name) for side, name in zip(sides, "ab")], axis=1)
-    pairs = (_backend_pairs(sides[0], _side(a), _side(b), f"{phase}_s") if sides[0] is sides[1] else
-             _timed(sides[0], phase).merge(_timed(sides[1], phase), on=["study", *POINT], suffixes=("_a", "_b")))
+    pairs = (_backend_pairs(sides[0], _side(a), _side(b), f"{phase}_s") if sides[0] is sides[1] else _timed(
+        sides[0], phase).merge(_timed(sides[1], phase), on=["study", "seed", *POINT], suffixes=("_a", "_b")))
     if pairs.empty:
-        raise ResultsError(f'"{a}" and "{b}" have no point in common (same study, case, dx, grid, M, threads'
+        raise ResultsError(f'"{a}" and "{b}" have no point in common (same study, seed, case, dx, grid, M, threads'
                            f'{"" if sides[0] is sides[1] else ", backend"})')
     pairs = pairs.sort_values(["point_a", "point_b"], ignore_index=True)
     pairs = pairs.join(stats.ratios(logs, "a" + pairs["point_a"].astype(str), "b" + pairs["point_b"].astype(str)))
@@ -153,7 +156,8 @@ def _side(text: str) -> tuple[str, dict[str, str]]:
 
 
 def _timed(side: Results, phase: str) -> pd.DataFrame:
-    return side.points[side.times(f"{phase}_s").notna()].reset_index()[["point", "study", *POINT]]
+    timed = side.points[side.times(f"{phase}_s").notna()].reset_index().astype({"seed": str})
+    return timed[["point", "study", "seed", *POINT]]
 
 
 def _backend_pairs(results: Results, a: tuple[str, dict[str, str]], b: tuple[str, dict[str, str]],
@@ -181,29 +185,47 @@ def _variant(p: Any) -> str:
     return ("" if p.isa == "scalar" else f" {p.isa}") + ("" if p.block in ("none", "auto") else f" {p.block}")
 
 
-def _rare(p: Any) -> str:
-    """The words of a point that are the same in most studies."""
-    return f"{p.precision} {p.interaction} {p.smoothing} {p.integrator} {p.order} H={p.H:.10g} {p.dim}D"
+def _rare(points: pd.DataFrame) -> list[str]:
+    """The words of points that are the same in most studies, as far as dx does not decide them."""
+    names = ["precision", "interaction", "smoothing", "integrator", "order", "H", "dim"]
+    words = points[names].assign(H=points["H"].map("H={:.10g}".format), dim=points["dim"].map("{}D".format))
+    several = [name for name in names if len(points[["dx", name]].drop_duplicates()) > points["dx"].nunique()]
+    return ["".join(f" {word}" for word in line) for line in words[several].to_numpy()]
 
 
-def _place(p: Any, q: Any, backend: str, rare: bool) -> str:
+def _origins(pairs: pd.DataFrame, sides: list[Results]) -> list[str]:
+    """Study, build and seed of the points of each pair, as far as there are several, like "talk, 8a2a02cd207b: "."""
+    found = []
+    for side, name in zip(sides, "ab"):
+        builds = side.environments.drop_duplicates("build").set_index("build")
+        builds = names(builds.assign(git=builds["revision"].str[:12]), [
+            "git", "host", "cpu", "compiler", "revision", "flags", "binding"])
+        own = side.points.loc[pairs[f"point_{name}"], ["study", "build", "seed"]]
+        found.append(own.assign(build=own["build"].map(builds)))
+    several = [name for name in found[0] if any(own[name].nunique() > 1 for own in found)]
+    lines = zip(*(own[several].fillna({"seed": 0}).to_numpy() for own in found))
+    return ["".join([", ".join(map(_both, a, b)), ": "] if several else []) for a, b in lines]
+
+
+def _both(a: Any, b: Any) -> str:
+    return str(a) if a == b else f"{a}/{b}"
+
+
+def _place(p: Any, q: Any, before: str, rare: str) -> str:
     """What a point and its counterpart are, in the words that tell the pairs apart."""
-    def both(a: Any, b: Any) -> str:
-        return str(a) if a == b else f"{a}/{b}"
-
     a, b = _variant(p), _variant(q)
     variants = a if a == b or not b else b if not a else f"{a} /{b}"
-    return (f"{backend}{p.case} {both(p.state, q.state)} dx={p.dx:.10g} {both(cells_words(p), cells_words(q))} "
-            f"threads={both(p.threads, q.threads)}{variants}{' ' + _rare(p) if rare else ''}")
+    return (f"{before}{p.case} {_both(p.state, q.state)} dx={p.dx:.10g} {_both(cells_words(p), cells_words(q))} "
+            f"threads={_both(p.threads, q.threads)}{variants}{rare}")
 
 
 def _table(pairs: pd.DataFrame, sides: list[Results], phase: str) -> str:
     first, second = (list(side.points.loc[pairs[f"point_{name}"]].itertuples()) for side, name in zip(sides, "ab"))
-    rare = len({(p.dx, _rare(p)) for p in first}) > len({p.dx for p in first})  # dx decides H
-    lines = [[_place(p, q, "" if sides[0] is sides[1] else f"{p.backend} ", rare), f"{p.rounds}/{q.rounds}",
+    words = zip(_origins(pairs, sides), _rare(sides[0].points.loc[pairs["point_a"]]))
+    lines = [[_place(p, q, origin + ("" if sides[0] is sides[1] else f"{p.backend} "), rare), f"{p.rounds}/{q.rounds}",
               ms(getattr(p, phase)), ms(getattr(q, phase)),
               bounded(e.ratio, e.low, e.high, 3, "  too few rounds"), e.verdict]
-             for p, q, e in zip(first, second, pairs.itertuples())]
+             for p, q, e, (origin, rare) in zip(first, second, pairs.itertuples(), words)]
     count = pairs["verdict"].value_counts()
     return text_table(["point", "rounds", "A ms", "B ms", "A/B [low, high]", "B is"], lines, 1) + (
         f"Of {len(pairs)} comparison{'' if len(pairs) == 1 else 's'} B is faster in {count.get('faster', 0)}, slower "

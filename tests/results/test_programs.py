@@ -9,6 +9,7 @@ import jsonschema
 import made
 import pandas as pd
 import pytest
+from committed import committed
 from conftest import ROOT
 
 import pairsum_results as pr
@@ -57,25 +58,34 @@ def test_the_schema_of_the_summary_rejects(rows, tmp_path):
             jsonschema.validate({**summary, **broken}, SCHEMA)
 
 
-def test_the_schema_holds_for_the_committed_rows(tmp_path):
-    for path in (ROOT / "results/self_test", ROOT / "results/vector"):
-        assert program.main(["report", "--tables", str(path), "--out", str(tmp_path)]) == 0
-        jsonschema.validate(json.loads((tmp_path / "summary.json").read_text()), SCHEMA)
+def run(*words, **environment):
+    return subprocess.run([sys.executable, "-B", "-m", "pairsum_results", *words], cwd=ROOT / "plots", text=True,
+                          capture_output=True, env={**os.environ, **environment})
 
 
 def test_errors_are_one_line_and_exit_code_2(rows, tmp_path):
-    def run(*words, **environment):
-        return subprocess.run([sys.executable, "-B", "-m", "pairsum_results", *words], cwd=ROOT / "plots", text=True,
-                              capture_output=True, env={**os.environ, **environment})
     done = run("report", str(tmp_path / "none.jsonl"))
     assert (done.returncode, done.stdout) == (2, "") and done.stderr.startswith("pairsum: ") and done.stderr.count("\n") == 1
     assert run("report", "--help").returncode == 0 and run("compare", "a").returncode == 2
     (tmp_path / "file").write_text("")
     done = run("report", rows([(made.point("naive"), 1.0)]), "--out", str(tmp_path / "file/inside"))
     assert done.returncode == 2 and "cannot write" in done.stderr and done.stderr.count("\n") == 1
-    (tmp_path / "pandas.py").write_text("raise ModuleNotFoundError(name='pandas')")
-    done = run("report", "x", PYTHONPATH=str(tmp_path))
-    assert done.returncode == 2 and "lacks pandas (Debian: python3-pandas" in done.stderr and done.stderr.count("\n") == 1
+    bare = rows([(made.point("naive"), 1.0)], "rows")
+    done = run("report", bare)
+    assert done.returncode == 2 and done.stderr == (
+        f"pairsum: {bare} does not end in .jsonl, so --out DIR should name the folder for the files\n")
+
+
+@pytest.mark.parametrize("module", ["pandas", "scipy", "matplotlib", "jinja2"])
+@pytest.mark.parametrize("name", ["report", "history"])
+def test_a_module_that_lacks_is_one_line_and_exit_code_2(rows, tmp_path, module, name):
+    """1 would say that something got slower."""
+    path = rows([(made.point("naive"), 1.0)])
+    (tmp_path / "lacking").mkdir()
+    (tmp_path / f"lacking/{module}.py").write_text(f"raise ModuleNotFoundError(name='{module}')")
+    done = run(name, path, "--out", str(tmp_path / "out"), PYTHONPATH=str(tmp_path / "lacking"))
+    assert done.returncode == 2 and f"python3-{module}" in done.stderr.split("(Debian: ")[1]
+    assert done.stderr.count("\n") == 1 and done.stderr.startswith("pairsum: ")
 
 
 def test_a_ladder_in_ten_lines_of_pandas(rows):
@@ -119,6 +129,52 @@ def test_blocks_and_vector_units_tell_pairs_apart(rows):
     assert "Of 1 comparison " in compare_sides("naive_omp", "symmetric_omp isa=avx512", [path]).text()
 
 
+def in_study(name, content):
+    return [{**row, "study": name} for row in content]
+
+
+def test_backends_are_compared_in_all_rows_below_results_without_a_word_more(tmp_path, monkeypatch, capsys):
+    """Points of different machines, builds and studies are never compared with each other."""
+    for study, slow, name in (("talk", 1, "1"), ("field", 2, "2"), ("field", 3, "3")):
+        e = made.environment(name * 16, git=f"{name}abc1234", host="other" if name == "3" else "node")
+        points = [(made.point(backend), slow * time, {"environment": e["environment"]})
+                  for backend, time in (("naive", 1.0), ("symmetric", 0.5))]
+        made.write(tmp_path / f"results/{study}/{name}.jsonl", in_study(study, made.study(points, before=[e])))
+    monkeypatch.chdir(tmp_path)
+    assert program.main(["compare", "naive", "symmetric"]) == 0
+    out = capsys.readouterr().out
+    assert "Of 3 comparisons B is faster in 3, slower in 0" in out and out.count("2.000 [2.000, 2.000]") == 3
+    for origin in ("talk, 1abc1234: ", "field, 2abc1234: ", "field, 3abc1234: "):
+        assert out.count(f"\n{origin}dam_break rest dx=0.00594 M=6 threads=1 ") == 1
+
+
+def test_revisions_of_several_builds_are_told_apart_where_they_may_be_mixed(rows):
+    builds = [made.environment(digit * 16, git=git, host=host) for digit, git, host in (
+        ("1", "1a2b3c4d", "node"), ("2", "1a2b3c4d", "other"), ("3", "5e6f7a8b", "node"))]
+    files = [rows([(made.point("naive"), 1.0, {"environment": e["environment"]})], f"{e['environment']}.jsonl", before=[e])
+             for e in builds]
+    with pytest.raises(pr.ResultsError, match="different machines or builds: host .node, other."):
+        compare_sides("1a2b3c4d", "5e6f7a8b", files)
+    text = compare_sides("1a2b3c4d", "5e6f7a8b", files, allow_mixed=True).text()
+    assert "1a2b3c4d, node/5e6f7a8b: naive" in text and "1a2b3c4d, other/5e6f7a8b: naive" in text
+
+
+def test_points_of_different_seeds_are_different_points(rows):
+    def points(environment):
+        return [(made.point(backend, state="perturbed"), seed * time, {"seed": seed, "environment": environment})
+                for backend, time in (("naive", 1.0), ("symmetric", 0.5)) for seed in (1, 2)]
+
+    one, other = (made.environment(digit * 16, git=git) for digit, git in (("1", "1a2b3c4d"), ("2", "5e6f7a8b")))
+    path = rows([point for e in (one, other) for point in points(e["environment"])], before=[one, other])
+    text = compare_sides("1a2b3c4d", "5e6f7a8b", [path]).text()
+    assert "Of 4 comparisons" in text and text.count("1.000 [1.000, 1.000]") == 4
+    assert "\n1: naive dam_break perturbed" in text and "\n2: naive dam_break perturbed" in text
+    text = compare_sides("naive", "symmetric", [path]).text()
+    assert "Of 4 comparisons" in text and text.count("2.000 [2.000, 2.000]") == 4
+    builds = pr.compiler_comparison(pr.load(path))
+    assert builds["ratio"].to_list() == pytest.approx([1, 1, 1, 1])
+
+
 def test_files_and_revisions_are_unpaired_unless_measured_together(rows):
     def build(digit, **change):
         return made.environment(digit * 16, **change)
@@ -141,7 +197,7 @@ def test_files_and_revisions_are_unpaired_unless_measured_together(rows):
         with pytest.raises(pr.ResultsError, match=says):
             compare_sides(a, side, [])
     assert "host (elsewhere, node)" in compare_sides(a, other, [], allow_mixed=True).text()
-    with pytest.raises(pr.ResultsError, match="no point in common .same study, case, dx, grid, M, threads, backend"):
+    with pytest.raises(pr.ResultsError, match="no point in common .same study, seed, case, dx, grid, M, threads, backend"):
         compare_sides(a, rows([by(gcc, 1.0, "symmetric")], "c.jsonl", before=[gcc]), [])
 
 
@@ -203,14 +259,22 @@ def test_misspelt_options_are_refused_with_what_was_meant(words, says, capsys, m
     assert left.value.code == 2 and says in capsys.readouterr().err
 
 
-def test_every_committed_summary_keeps_its_schema():
-    paths = sorted(ROOT.glob("results/*/*/summary.json"))
-    assert len(paths) > 5
-    for path in paths:
-        jsonschema.validate(json.loads(path.read_text()), SCHEMA)
-
-
 def test_whoever_reads_the_output_may_stop(rows, tmp_path):
     command = f"{sys.executable} -m pairsum_results report --tables {rows(made.talk())} --out {tmp_path} | head -n 1"
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=ROOT / "plots")
     assert done.stdout.count("\n") == 1 and done.stderr == ""
+
+
+@pytest.mark.skipif(not (ROOT / ".git").exists(), reason="no git repository")
+def test_git_takes_rows_and_summaries_alone():
+    def ignored(names):
+        command = ["git", "-c", f"safe.directory={ROOT}", "-C", ROOT, "check-ignore", "--no-index", "--stdin"]
+        return subprocess.run(command, input="\n".join(names), capture_output=True, text=True).stdout.split()
+
+    taken = [str(path.relative_to(ROOT)) for pattern in ("*.jsonl", "*/summary.json", "README.md")
+             for path in committed(f"results/{'' if pattern == 'README.md' else '*/'}{pattern}")]
+    assert len(taken) > 14 and ignored(taken) == []
+    made_again = [f"results/talk/{folder}{name}" for folder in ("", "FILE/") for name in (
+        "report.html", "ladder.svg", "tables.txt", "rounds.csv", "csv/points.csv", "paper/tables.tex")]
+    made_again += ["results/talk/summary.json", "results/quick/FILE.jsonl", "results/history/history.html"]
+    assert ignored([*made_again, "results/talk/FILE.jsonl", "results/talk/FILE/summary.json"]) == made_again
