@@ -6,19 +6,22 @@ them. The answer is now set against the gather and the symmetric sum instead of 
 fastest and what cannot be told from it is as it was, but in `vector`, where it is now the fastest of all parts instead of
 that of the largest part. Of the questions it has the details alone.
 """
+import functools
 import json
 import math
 import pathlib
 
+import jsonschema
 import pytest
+from committed import committed
 from conftest import ROOT
 
 import pairsum_results as pr
+from pairsum_results import summary
 
 UNKNOWN = ("Does it scale as well, within 5 %?", "Does a sum reach half of what the machine can do?")
-
-
 GOLDEN = json.loads((pathlib.Path(__file__).parent / "golden.json").read_text())
+SCHEMA = json.loads((ROOT / "plots/pairsum_results/summary.schema.json").read_text())
 
 
 def rows(table, *columns):
@@ -51,28 +54,35 @@ def condensed(report):
         "failed": rows(r.failed, "backend", "threads", "rows", "error"),
         "caveats": [[c] for c in report.caveats],
         "peaks": rows(r.peaks, "threads", "precision", "bandwidth_bytes_per_s", "flops_per_s"),
-        "rounds": [[len(r.closed), r.void_rounds, r.closed["others_share"].max()]],
-        "phases": rows(points, *(f"{name}{end}" for name in sorted(pr.PHASES) for end in ("", "_low", "_high")))}
+        "rounds": [[len(r.closed), r.void_rounds, r.closed["others_share"].max()]]}
 
 
 def same(found, expected):
     if expected is None:
         return found is None or found != found
     if isinstance(expected, float) or isinstance(found, float):
-        return found is not None and math.isclose(found, expected, rel_tol=1e-9, abs_tol=1e-12)
+        return isinstance(found, (int, float)) and math.isclose(found, expected, rel_tol=1e-9, abs_tol=1e-12)
     if isinstance(expected, list):
         return len(found) == len(expected) and all(map(same, found, expected))
+    if isinstance(expected, dict):
+        return found.keys() == expected.keys() and all(same(found[key], expected[key]) for key in expected)
     return found == expected
+
+
+@functools.cache
+def report_of(name):
+    """That of a committed rows file, like "talk/FILE.jsonl"."""
+    return pr.report(pr.load(ROOT / "results" / name))
 
 
 @pytest.fixture(scope="module", params=GOLDEN)
 def compared(request):
-    report = pr.report(pr.load([ROOT / "results" / request.param]))
-    return condensed(report), GOLDEN[request.param]
+    return condensed(report_of(request.param)), GOLDEN[request.param]
 
 
 def test_every_number_is_as_it_was(compared):
     found, golden = compared
+    assert found.keys() == golden.keys()
     for name, expected in golden.items():
         if name == "questions":
             expected = [row for row in expected if row[0] not in UNKNOWN]
@@ -84,5 +94,21 @@ def test_every_number_is_as_it_was(compared):
 def test_a_number_that_is_off_is_found(compared):
     found, golden = compared
     value = golden["points"][0][0]
-    assert same(value, golden["points"][0][0]) and not same(value * (1 + 2e-9), value) and not same(None, value)
+    assert same(found["points"][0][0], value) and not same(value * (1 + 2e-9), value) and not same(None, value)
     assert not same([*found["points"][0][:-1], 7.0], golden["points"][0]) and not same(float("nan"), value)
+
+
+@pytest.mark.parametrize("path", committed("results/*/*/summary.json"), ids=lambda path: path.parts[-3])
+def test_every_committed_summary_is_that_of_its_rows(path):
+    """If not: pairsum report --tables FILE.jsonl, and commit it."""
+    kept = json.loads(path.read_text())
+    jsonschema.validate(kept, SCHEMA)
+    made_again = json.loads(summary._printed(summary.summary(report_of(str(path.parent.relative_to(ROOT / "results")
+                                                                       .with_suffix(".jsonl"))))))
+    assert [key for key in kept if not same(made_again.get(key), kept[key])] == [] and kept.keys() == made_again.keys()
+    made_again["points"][-1]["sum_s"] *= 1 + 1e-8
+    assert not same(made_again, kept)
+
+
+def test_there_are_committed_summaries():
+    assert len(committed("results/*/*/summary.json")) > 5
