@@ -163,15 +163,13 @@ class errand_run {
  private:
   using threads_and_precision = std::pair<int, std::string>;
 
-  /// What of the machine is measured among the part's points, so that their speedups can be set against it: if the plan
-  /// wants peaks and the part has one thread and more, the multiply-adds of every number of threads and precision.
+  /// What of the machine is measured among the part's points, so that their speedups, and times of another day, can be
+  /// set against it: if the plan wants peaks, the multiply-adds of every number of threads and precision.
   std::vector<threads_and_precision> paces_of(const measured_part& part) const {
     std::set<threads_and_precision> wanted;
     if (order_.plan.peaks)
       for (const auto& p : part.points()) wanted.emplace(p.what.threads, p.what.precision);
-    const bool scales = !wanted.empty() && wanted.begin()->first == 1 && wanted.rbegin()->first > 1;
-    return scales ? std::vector<threads_and_precision>(wanted.begin(), wanted.end())
-                  : std::vector<threads_and_precision>();
+    return {wanted.begin(), wanted.end()};
   }
 
   void write_pace(const threads_and_precision& of) {
