@@ -102,7 +102,8 @@ def _undecided(rounds: int, others: int, ties: int, winner: str) -> str:
     if others == 0:
         return f"only {winner} was measured"
     if rounds < _NEEDED:
-        return f"{rounds} round{'' if rounds == 1 else 's'} of {winner} give no interval ({_NEEDED} are needed)"
+        said = "1 round of {} gives" if rounds == 1 else f"{rounds} rounds of {{}} give"
+        return f"{said.format(winner)} no interval ({_NEEDED} are needed)"
     rest = f"the {others} others" if others > 1 else "the other"
     return f"no difference was resolved between {winner} and {rest}" if ties == others else ""
 
