@@ -23,8 +23,8 @@ def warnings(report: Report) -> list[str]:
     failed = failed[~failed["backend"].isin(self_tests(report.results).index)]  # of those it is what was expected
     found = []
     if disturbed := int((shares > _QUIET).sum()):
-        found.append(f"{disturbed} of {len(shares)} rounds {'was' if disturbed == 1 else 'were'} disturbed: other processes took up to "
-                     f"{100 * shares.max():.2g} % of the machine. Small differences may come from that.")
+        found.append(f"{disturbed} of {len(shares)} rounds {'was' if disturbed == 1 else 'were'} disturbed: other "
+                     f"processes took up to {100 * shares.max():.2g} % of the machine. Small differences may come from that.")
     if len(failed):
         found.append(f"{len(failed)} point{'s' * (len(failed) > 1)} failed the verification: "
                      f"{first_few(failed['backend'].drop_duplicates())}. Their times do not count.")

@@ -138,7 +138,7 @@ def test_a_banner_warns_and_no_number_stands_without_an_interval(chromium, tmp_p
     rows[-1] |= {"others_share": 0.24}
     browser.show(chromium, written([artists.report(tmp_path, rows)], tmp_path))
     disturbed, open_ = (banner.text for banner in chromium.find_elements(By.CLASS_NAME, "banner"))
-    assert "nothing is decided, because" in open_ and disturbed.startswith("1 of 2 rounds were disturbed")
+    assert "nothing is decided, because" in open_ and disturbed.startswith("1 of 2 rounds was disturbed")
     assert "24 %" in disturbed
     answer = chromium.find_element(By.ID, "answer").text
     assert "Run this next" in answer and not re.search(r"\d\.\d+ times", answer) and " a step" not in answer
