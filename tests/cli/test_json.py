@@ -15,7 +15,7 @@ SOURCE = pathlib.Path(os.environ["PAIRSUM_SOURCE"])
 VERIFY = ["verify", "--dim", "3", "--precision", "double", "--smoothing", "wendland_c2", "--dx", "0.1", "--M", "3", "--threads", "1,2",
           "--isa", "scalar", "--backend", "naive,symmetric_omp"]
 TUNE = ["tune", "--dx", "0.08", "--M", "3", "--threads", "1", "--backend", "naive,symmetric", "--grid", "hashed_grid,compact_grid",
-        "--budget", "10", "--binding", "none"]
+        "--isa", "scalar", "--budget", "10", "--binding", "none"]
 
 
 def schema_of(path):

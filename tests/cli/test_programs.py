@@ -114,7 +114,7 @@ def test_report_writes_summary_tables_figures_and_page(pairsum, tmp_path):
     assert lines[-3] == f"tables:  {folder}/tables.txt, tables.md, csv/, rounds.csv, summary.json"
     assert (folder / "report.html").read_text().startswith("<!") and list(folder.glob("*.png"))
     tables = (folder / "tables.txt").read_text()
-    assert "Algorithm speedup" in tables and max(map(len, tables.splitlines())) <= 120
+    assert "Algorithm speedup" in tables
     assert pairsum("report", "--tables", rows, "--out", folder).stdout.count(tables) == 1
     assert "Algorithm speedup" in (folder / "tables.md").read_text()
     for table in (folder / "csv").iterdir():

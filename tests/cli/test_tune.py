@@ -10,8 +10,8 @@ import time
 import pytest
 from conftest import BIN, refused
 
-SMALL = ["--dx", "0.08", "--M", "3", "--threads", "1", "--backend", "naive,symmetric", "--grid", "hashed_grid", "--budget", "10",
-         "--binding", "none"]
+SMALL = ["--dx", "0.08", "--M", "3", "--threads", "1", "--backend", "naive,symmetric", "--grid", "hashed_grid",
+         "--isa", "scalar", "--budget", "10", "--binding", "none"]
 
 
 @pytest.fixture
@@ -71,6 +71,13 @@ def test_all_isas_are_scalar_and_the_vector_units(pairsum):
     assert done.returncode == 0, done.stderr
     found = re.findall(r"(?:take |^)symmetric M=3 threads=1 (?:(\w+) )?double", done.stdout, re.M)
     assert sorted(found) == sorted(["", *built]), done.stdout
+
+
+def test_every_backend_is_tried_scalar_and_on_the_best_vector_units(pairsum):
+    done = pairsum("tune", "--dx", "0.08", "--M", "3", "--threads", "1", "--backend", "symmetric,tiles_omp", "--grid",
+                   "hashed_grid", "--budget", "10", "--binding", "none", "--json")
+    tried = {(c["backend"], c["isa"] == "scalar") for c in json.loads(done.stdout)["candidates"]}
+    assert tried == {("symmetric", True), ("symmetric", False), ("tiles_omp", False)}
 
 
 def test_run_takes_the_words_of_a_profile_and_options_go_before_them(pairsum, profile, tmp_path):
