@@ -204,7 +204,7 @@ TEST_P(isa_test, is_what_was_asked_for) {
 
 TEST_P(isa_test, wrong_words_are_refused) {
   world.isa = "avx9";
-  EXPECT_TRUE(says(refusal(), {"unknown isa \"avx9\"; valid: ", "scalar"})) << refusal();
+  EXPECT_TRUE(says(refusal(), {"unknown isa \"avx9\"", "valid: ", "scalar"})) << refusal();
 #ifdef __x86_64__
   world.isa = "neon";
   EXPECT_TRUE(says(refusal(), {"isa neon is not in this build", "valid: "})) << refusal();
