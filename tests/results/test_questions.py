@@ -50,6 +50,14 @@ def test_twice_is_decided_by_the_interval(asked, symmetric, change, rounds, verd
     assert found["verdict"] == verdict and found["number"].startswith(number)
 
 
+def test_the_talks_sum_is_the_one_without_vector_units(asked):
+    units = {"work": made.work(vector_units={"block": "none", "lanes": 8, "vectors": 9, "occupancy": 0.8})}
+    vector = [(made.point(name, 6, 2, isa="avx512"), time, units) for name, time in (("naive_omp", 0.1),
+                                                                                   ("symmetric_omp", 0.15))]
+    assert asked([*pairs(0.4), *vector])[TWICE]["number"].startswith("2.50")
+    assert asked(vector)[TWICE]["number"].startswith("0.67")
+
+
 @pytest.mark.parametrize("gain, change, verdict, number", [
     (1.5, None, "No", "0.75 [0.75, 0.75] of the speedup of naive_omp (symmetric_omp)"), (1.98, None, "Yes", "0.99 ["),
     (2.0, NOISE, "Not decided", "1.00 [0.")])
