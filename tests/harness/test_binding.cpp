@@ -194,7 +194,7 @@ TEST(binding, of_another_name_is_refused) {
     const thread_binding b("cores_last");
     FAIL();
   } catch (const error& e) {
-    EXPECT_STREQ(e.what(), "unknown binding \"cores_last\"; valid: cores_first, none");
+    EXPECT_STREQ(e.what(), "unknown binding \"cores_last\"; did you mean cores_first? valid: cores_first, none");
   }
 }
 
