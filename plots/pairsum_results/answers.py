@@ -80,7 +80,8 @@ def said_of(found: Answer | None) -> list[str]:
     """The answer in lines for a terminal, with the command that follows from it."""
     if found is None:
         return ["Nothing can be recommended from these rows: they hold no backend but those of the self-test."]
-    return [found.text, found.details, f"{'Run it' if found.decided else 'Run this'}:  {found.command}"]
+    said = words.wrapped(found.text, 100) + words.wrapped(found.details, 100)
+    return [*said.splitlines(), f"{'Run it' if found.decided else 'Run this'}:  {found.command}"]
 
 
 def _over(kind: str, candidates: pd.DataFrame, against: pd.DataFrame, said: pd.Series,
