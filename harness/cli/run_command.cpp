@@ -33,7 +33,7 @@ constexpr level_option comparison_options[] = {
     {"threads", "all", "numbers of threads; all: 1, 2, 4, ... all cores; cores: all cores"},
     {"grid", "hashed_grid", "grids; those that take no M are measured once"},
     {"precision", "double", "working precisions"},
-    {"isa", "default", "scalar, best, sets, all; default: best for tiles, scalar for others"},
+    {"isa", "default", "scalar, best, avx2, ..., all; default: best for tiles, scalar for others"},
     {"block", "auto", "of backends with blocks of cells: auto, slab:4, pencil:4, brick:4"},
     {"granularity", "default", "of loops: dynamic:32, static:0, guided:8 (OpenMP); auto:32 (oneTBB)"},
 };
@@ -251,7 +251,7 @@ void add_run_command(CLI::App& app, action& chosen) {
       "Examples:\n"
       "  pairsum run quick                 a small version of everything, about a minute\n"
       "  pairsum run talk --dry-run        what the talk's study measures, and how long it takes\n"
-      "  pairsum run field --only backend=naive_omp,tiles_omp --only threads=cores\n"
+      "  pairsum run talk --only backend=naive_omp,symmetric_omp --only threads=cores\n"
       "  pairsum run --dx 0.012 --backend naive_omp,symmetric_omp --M 6,7 --threads all");
   command->callback([&chosen, o, command] {
     given_options given;

@@ -200,7 +200,8 @@ def _runtime(table: pd.DataFrame) -> _Answer | None:
         return None
     count = table["verdict"].value_counts()
     e = table.loc[np.fmin(table["time_s"], table["base_time_s"]).idxmin()]
-    return (_verdict(e["low"], e["high"], 1), f"{_with_bounds(e)} times ({e['algorithm']})",
+    verdict = {"faster": YES, "slower": NO}.get(e["verdict"], OPEN)  # of all comparisons together
+    return (verdict, f"{_with_bounds(e)} times ({e['algorithm']})",
             f"Of {len(table)} comparisons oneTBB is faster in {count.get('faster', 0)}, OpenMP in "
             f"{count.get('slower', 0)}, no difference is resolved in {count.get('not resolved', 0)}; OpenMP's time is "
             f"{table['ratio'].min():.3f} to {table['ratio'].max():.3f} of oneTBB's.")
