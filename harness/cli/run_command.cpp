@@ -33,7 +33,7 @@ constexpr level_option comparison_options[] = {
     {"threads", "all", "numbers of threads; all: 1, 2, 4, ... all cores; cores: all cores"},
     {"grid", "hashed_grid", "grids; those that take no M are measured once"},
     {"precision", "double", "working precisions"},
-    {"isa", "default", "scalar, best, avx2, ..., all; default: best for tiles, scalar for others"},
+    {"isa", "default", "scalar, best, avx2, all; default: best for tiles, scalar for others"},
     {"block", "auto", "of backends with blocks of cells: auto, slab:4, pencil:4, brick:4"},
     {"granularity", "default", "of loops: dynamic:32, static:0, guided:8 (OpenMP); auto:32 (oneTBB)"},
 };

@@ -31,7 +31,10 @@ std::filesystem::path rows_path(const std::filesystem::path& results, const stud
       }
     }
   if (!newest.empty()) return newest;
-  return folder / fmt::format("{}-{}-{}.jsonl", here.host, utc_stamp(), here.git + (here.dirty ? "-dirty" : ""));
+  const std::string stem = fmt::format("{}-{}-{}", here.host, utc_stamp(), here.git + (here.dirty ? "-dirty" : ""));
+  std::filesystem::path made = folder / (stem + ".jsonl");
+  for (int k = 2; std::filesystem::exists(made, code); ++k) made = folder / fmt::format("{}-{}.jsonl", stem, k);
+  return made;  // two runs may begin in the same second
 }
 
 }  // namespace pairsum::harness
