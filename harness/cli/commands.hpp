@@ -7,6 +7,11 @@ class App;
 
 namespace pairsum::harness {
 
+/// A factor or number of a study as an option, with its default.
+struct level_option {
+  const char *key, *standard, *what;
+};
+
 /// Each adds its subcommand to the program; `chosen` receives what to do if that subcommand was called, and returns the
 /// exit code.
 using action = std::function<int()>;

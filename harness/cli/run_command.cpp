@@ -22,11 +22,6 @@
 namespace pairsum::harness {
 namespace {
 
-/// A factor or number of a run without a plan, with its default.
-struct level_option {
-  const char *key, *standard, *what;
-};
-
 constexpr level_option comparison_options[] = {
     {"backend", "naive_omp,symmetric_omp", "backends, or all (pairsum list)"},
     {"M", "6,7", "hash sizes, like 6,7 or 5..9: the grid folds to 2^M cells an axis"},

@@ -28,11 +28,7 @@
 namespace pairsum::harness {
 namespace {
 
-struct tune_option {
-  const char *key, *standard, *what;
-};
-
-constexpr tune_option tune_options[] = {
+constexpr level_option tune_options[] = {
     {"case", "dam_break", "initial condition (pairsum list)"},
     {"dx", "0.02", "particle spacing in m; 0.00594 is the talk's 2,014,966 particles"},
     {"state", "rest", "rest or perturbed"},
@@ -123,7 +119,7 @@ void add_tune_command(CLI::App& app, action& chosen) {
       "number\nof threads. Every candidate gets a look; those that are clearly slower are dropped; the others are "
       "measured in\ninterleaved rounds. No time counts before its rates were verified.");
   const auto o = std::make_shared<tune_settings>();
-  for (const tune_option& option : tune_options)
+  for (const level_option& option : tune_options)
     command->add_option(std::string("--") + option.key, o->levels[option.key] = option.standard, option.what)
         ->capture_default_str();
   const CLI::Option* const M = command->get_option("--M");

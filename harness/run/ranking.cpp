@@ -51,8 +51,6 @@ double geometric_mean(const std::map<int, double>& by_round) {
   return std::exp(sum / static_cast<double>(by_round.size()));
 }
 
-bool has_rank(const ranked& r) { return r.error.empty() && !r.step_s.empty(); }
-
 /// The paired ratio of two points' steps.
 ratio_estimate ratio_of(const ranked& own, const ranked& fastest) {
   std::vector<double> own_s, fastest_s;
@@ -67,11 +65,11 @@ ratio_estimate ratio_of(const ranked& own, const ranked& fastest) {
 
 void compare(ranking& points) {
   const auto key = [](const ranked& r) {
-    return has_rank(r) ? std::pair(0, geometric_mean(r.step_s)) : std::pair(1, 0.0);
+    return r.has_rank() ? std::pair(0, geometric_mean(r.step_s)) : std::pair(1, 0.0);
   };
   std::ranges::stable_sort(points, {}, key);
   std::vector<ratio_estimate> ratios;
-  for (std::size_t k = 1; k < points.size() && has_rank(points[k]); ++k)
+  for (std::size_t k = 1; k < points.size() && points[k].has_rank(); ++k)
     ratios.push_back(points[k].ratio = ratio_of(points[k], points.front()));
   const std::vector<ratio_verdict> verdicts = verdicts_of(ratios);  // the fastest against each as a base
   for (std::size_t k = 0; k < verdicts.size(); ++k) points[k + 1].is_slower = verdicts[k] == ratio_verdict::faster;

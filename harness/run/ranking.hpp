@@ -19,6 +19,7 @@ struct ranked {
   std::string error;                    ///< why it failed its verification; then it has no rank
   /// Its step over the fastest's, paired by the rounds that both have; without any, of the geometric means.
   ratio_estimate ratio{1, {}, 0, {}};
+  bool has_rank() const { return error.empty() && !step_s.empty(); }
   bool is_slower = false;  ///< the difference is resolved, at 95 % for all points of the problem together
 };
 

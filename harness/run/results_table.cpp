@@ -84,7 +84,7 @@ std::string aligned(const std::vector<line>& lines, bool colours) {
 std::string verdict(const ranking& points, const level_columns& levels, bool colours) {
   std::vector<std::string> slower, same;
   bool any_interval = false;
-  for (std::size_t k = 1; k < points.size() && !points[k].step_s.empty() && points[k].error.empty(); ++k) {
+  for (std::size_t k = 1; k < points.size() && points[k].has_rank(); ++k) {
     const ranked& r = points[k];
     any_interval = any_interval || r.ratio.bounds;
     if (r.is_slower)

@@ -46,10 +46,12 @@ def _report_program(programs) -> None:
         "report", help="tables, figures and a page from rows files", description="Tables (text, Markdown, CSV), "
         "summary.json, figures and one page, report.html, from rows files. Rows that failed their verification never "
         "enter a table, nor do rounds that were cut.")
-    program.add_argument("inputs", nargs="+", metavar="FILE", help="rows files, or folders of them, with the folders below")
+    program.add_argument("inputs", nargs="+", metavar="FILE",
+                         help="rows files, or folders of them, with the folders below")
     program.add_argument("--out", metavar="DIR", type=pathlib.Path,
                          help="folder for the files (default: named like the rows file, beside it)")
-    program.add_argument("--tables", action="store_true", help="print the tables; write them, CSV and summary.json alone: no figures, no page")
+    program.add_argument("--tables", action="store_true",
+                         help="print the tables; write them, CSV and summary.json alone: no figures, no page")
     program.add_argument("--beside", metavar="FILE", nargs="+", default=[],
                          help="rows files of other machines, each beside the first on the page")
     program.add_argument("--paper", action="store_true",

@@ -9,6 +9,7 @@ from . import words
 from .compare import compared, first_few
 from .load import Results
 from .self_tests import self_tests
+from .stats import FEWEST_FOR_MEDIAN
 
 
 @dataclasses.dataclass
@@ -30,7 +31,6 @@ class Answer:
 
 #: The gather and the talk's symmetric sum, scalar, on any runtime.
 _BASES = {"symmetric": ["symmetric", "symmetric_omp", "symmetric_tbb"], "gather": ["naive", "naive_omp", "naive_tbb"]}
-_NEEDED = 6  # rounds, for an interval of the median
 
 
 def answer(results: Results) -> Answer | None:
@@ -60,12 +60,13 @@ def answer(results: Results) -> Answer | None:
         text = f"On {where['host']} nothing is decided, because {reason}"
         backends = dict.fromkeys([p["backend"], *points["backend"].reindex(ties), *(points["backend"][one["point"]]
                                                                                     for one in bases)])
-        command = _command(p, backend=",".join(backends) if len(others) else "all", rounds=2 * max(_NEEDED, len(own)))
+        command = _command(p, backend=",".join(backends) if len(others) else "all",
+                           rounds=2 * max(FEWEST_FOR_MEDIAN, len(own)))
     else:
         text = f"On {where['host']} {said[best]} is the fastest of {len(candidates)} measured"
-        text += ": " + " and ".join(f"{words.bounded(one['ratio'], one['low'], one['high'])} times as fast as "
-                                    f"{one['name']}" for one in bases) if bases else ""
-        text += f", on {n_particles:,} particles"
+        ratios = " and ".join(f"{words.bounded(one['ratio'], one['low'], one['high'])} times as fast as {one['name']}"
+                              for one in bases)
+        text += (f": {ratios}" if ratios else "") + f", on {n_particles:,} particles"
         command = _command(p, backend=p["backend"])
     details = (f"{where['cpu']}, {where['cores']} cores: a whole step of {p['case']} ({p['n_fluid']:,} fluid and "
                f"{p['n_boundary']:,} boundary particles, dx {p['dx']:.10g}, {p['state']}, {p['precision']}, "
@@ -102,9 +103,9 @@ def _over(kind: str, candidates: pd.DataFrame, against: pd.DataFrame, said: pd.S
 def _undecided(rounds: int, others: int, ties: int, winner: str) -> str:
     if others == 0:
         return f"only {winner} was measured"
-    if rounds < _NEEDED:
+    if rounds < FEWEST_FOR_MEDIAN:
         said = "1 round of {} gives" if rounds == 1 else f"{rounds} rounds of {{}} give"
-        return f"{said.format(winner)} no interval ({_NEEDED} are needed)"
+        return f"{said.format(winner)} no interval ({FEWEST_FOR_MEDIAN} are needed)"
     rest = f"the {others} others" if others > 1 else "the other"
     return f"no difference was resolved between {winner} and {rest}" if ties == others else ""
 
@@ -133,16 +134,14 @@ _USUAL = {"dim": 3, "precision": "double", "interaction": "ferrari09", "smoothin
 def _choices(points: pd.DataFrame, best: int) -> pd.Series:
     """ "symmetric_omp (avx2, M = 7, 2 threads)": variants of a backend that has several, then grid, M and threads where
     they are not as of the best."""
-    variants = ["isa", "block", "granularity"]
-    several = points.groupby("backend")[variants].transform("nunique") > 1
+    variants = words.variants(points)
 
     def place(p: Any) -> list[str]:
         return ([p["grid"]] if p["grid"] != "hashed_grid" or np.isnan(p["M"]) else []) + (
             [f"M = {p['M']:.0f}"] if pd.notna(p["M"]) else []) + [words.threads_words(p["threads"])]
 
     def said(p: Any) -> str:
-        found = [p[name] for name in variants if several[name][p.name]]
-        found += [word for word in place(p) if p.name == best or word not in own]
+        found = variants[p.name] + [word for word in place(p) if p.name == best or word not in own]
         return p["backend"] + (f" ({', '.join(found)})" if found else "")
 
     own = place(points.loc[best])

@@ -4,6 +4,7 @@ from typing import Any
 import pandas as pd
 
 from . import words
+from .builds import QUIET
 from .compare import first_few
 from .figures import cases, ladder
 from .figures.style import FAMILIES
@@ -12,8 +13,6 @@ from .load import PLACE
 from .reports import Report
 from .self_tests import self_tests
 
-#: The share of the machine that other processes may take before a round counts as disturbed.
-_QUIET = 0.05
 _USUAL = ("", "scalar", "none", "auto")  # what is not said of a point
 
 
@@ -22,7 +21,7 @@ def warnings(report: Report) -> list[str]:
     shares, failed = report.results.closed["others_share"], report.results.failed
     failed = failed[~failed["backend"].isin(self_tests(report.results).index)]  # of those it is what was expected
     found = []
-    if disturbed := int((shares > _QUIET).sum()):
+    if disturbed := int((shares > QUIET).sum()):
         found.append(f"{disturbed} of {len(shares)} rounds {'was' if disturbed == 1 else 'were'} disturbed: other "
                      f"processes took up to {100 * shares.max():.2g} % of the machine. Small differences may come from that.")
     if len(failed):

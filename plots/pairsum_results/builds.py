@@ -4,6 +4,8 @@ import json
 import numpy as np
 import pandas as pd
 
+#: The share of the machine that other processes may take before a round counts as disturbed.
+QUIET = 0.05
 _BUILD = ["host", "cpu", "compiler", "flags", "git", "dirty", "binding"]
 
 
@@ -47,10 +49,10 @@ def measured_together(samples: pd.DataFrame) -> bool:
 def caveats(closed: pd.DataFrame, environments: pd.DataFrame, differ: str, together: bool) -> list[str]:
     found = []
     for source, shares in closed.groupby("source", sort=False)["others_share"]:
-        disturbed = int((shares > 0.05).sum())
+        disturbed = int((shares > QUIET).sum())
         if disturbed:
             found.append(f"{source.split('/')[-1]}: in {disturbed} of {len(shares)} rounds other processes used more "
-                         "than 5 % of the machine")
+                         f"than {100 * QUIET:.0f} % of the machine")
     if differ:
         found.append(("the builds differ, which is what is compared: " if together else
                       "rows of different machines or builds in one report: ") + differ)

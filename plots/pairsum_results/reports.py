@@ -10,6 +10,7 @@ from .load import Results, place_words
 from .model import models, shares
 from .questions import questions
 from .self_tests import self_test
+from .stats import FEWEST_FOR_MEDIAN
 
 
 @dataclasses.dataclass
@@ -62,7 +63,8 @@ def _caveats(results: Results, tables: dict[str, pd.DataFrame], tested: pd.DataF
                         ("particles were lost in a step", points["lost"] > 0),
                         ("fewer threads worked in a step than were asked for",
                          points["threads_worked"] < points["threads"]),
-                        ("fewer than 6 rounds, so no interval of the median", points["rounds"] < 6)):
+                        (f"fewer than {FEWEST_FOR_MEDIAN} rounds, so no interval of the median",
+                         points["rounds"] < FEWEST_FOR_MEDIAN)):
         if which.any():
             found.append(f"{what}: {compare.first_few(list(labels[which]))}")
     found += compare.without_base(results)

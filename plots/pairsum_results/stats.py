@@ -9,6 +9,8 @@ import scipy.stats
 LEVEL = 0.95
 #: Fewest rounds from which the interval of a ratio is made.
 FEWEST_FOR_RATIO = 3
+#: Fewest rounds from which the interval of a median is made (median_rank).
+FEWEST_FOR_MEDIAN = 6
 
 
 def median_rank(n: int, level: float = LEVEL) -> tuple[int, float]:

@@ -78,16 +78,23 @@ def threads_words(n: int) -> str:
     return f"{n} thread{'' if n == 1 else 's'}"
 
 
+def variants(points: pd.DataFrame) -> pd.Series:
+    """Lists of the isa, block and granularity of every point, where its backend has several of them among these."""
+    found: list[list[str]] = [[] for _ in points.index]
+    for name in ("isa", "block", "granularity"):
+        several = points.groupby("backend")[name].transform("nunique") > 1
+        for words, word, one in zip(found, points[name], several):
+            words += [word] if one else []
+    return pd.Series(found, points.index, dtype=object)
+
+
 def names(points: pd.DataFrame, with_grid: bool = True) -> pd.Series:
     """What tells points apart beside M and threads: the backend, with the grid unless that is hashed_grid, and with
     isa, block and granularity where the backend has several of them among these points."""
     text = points["backend"]
     if with_grid:
         text = text.where(points["grid"] == "hashed_grid", text + "/" + points["grid"])
-    for name in ("isa", "block", "granularity"):
-        several = points.groupby("backend")[name].transform("nunique") > 1
-        text = text.where(~several, text + " " + points[name])
-    return text
+    return text + variants(points).map(lambda found: "".join(f" {word}" for word in found))
 
 
 def hoisted(caption: str, header: list[str], rows: list[list[str]], left: int
