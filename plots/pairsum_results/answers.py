@@ -35,7 +35,7 @@ _BASES = {"symmetric": ["symmetric", "symmetric_omp", "symmetric_tbb"], "gather"
 
 def answer(results: Results) -> Answer | None:
     """None if nothing but self-test backends was measured."""
-    points = results.points.assign(time=results.times("total_s"))
+    points = results.points.assign(time=results.typical("total_s"))
     points = points[points["time"].notna() & ~points["backend"].isin(self_tests(results).index)]
     of_first = points[points["build"] == 0]
     if of_first.empty:
@@ -54,7 +54,7 @@ def answer(results: Results) -> Answer | None:
     over = {kind: _over(kind, candidates.drop(best), against, said, p["backend"], p["threads"]) for kind in _BASES}
     reason = _undecided(len(own), len(others), len(ties), said[best])
     where = results.environments.drop_duplicates("build").set_index("build").loc[0]
-    n_particles = int(p["n_fluid"] + p["n_boundary"])
+    particles = f"{p['n_fluid']:,} fluid" + (f" and {p['n_boundary']:,} boundary" if p["n_boundary"] else "") + " particles"
     bases = [one for one in over.values() if one]
     if reason:
         text = f"On {where['host']} nothing is decided, because {reason}"
@@ -63,18 +63,20 @@ def answer(results: Results) -> Answer | None:
         command = _command(p, backend=",".join(backends) if len(others) else "all",
                            rounds=2 * max(FEWEST_FOR_MEDIAN, len(own)))
     else:
-        text = f"On {where['host']} {said[best]} is the fastest of {len(candidates)} measured"
-        ratios = " and ".join(f"{words.bounded(one['ratio'], one['low'], one['high'])} times as fast as {one['name']}"
-                              for one in bases)
-        text += (f": {ratios}" if ratios else "") + f", on {n_particles:,} particles"
+        backends = candidates["backend"].nunique()
+        measured = f"{backends} backends" if backends > 1 else f"{len(candidates)} variants"
+        text = f"On {where['host']} {said[best]} is the fastest of {measured}"
+        if ties:
+            text += f", tied with {first_few([said[k] for k in ties])}"
+        text += ": " * bool(bases) + " and ".join(_times_as_fast(one) for one in bases) + f", on {particles}"
         command = _command(p, backend=p["backend"])
-    details = (f"{where['cpu']}, {where['cores']} cores: a whole step of {p['case']} ({p['n_fluid']:,} fluid and "
-               f"{p['n_boundary']:,} boundary particles, dx {p['dx']:.10g}, {p['state']}, {p['precision']}, "
-               f"{p['interaction']}) takes {words.ms(p['time'])} ms with {said[best]}.")
-    if ties:
-        details += f" No difference was resolved from {first_few([said[k] for k in ties])}."
-    return Answer(text + ".", details, best, ties, not reason, reason, command, n_particles, over["gather"],
-                  over["symmetric"])
+    details = (f"{where['cpu']}, {where['cores']} cores: a whole step of {p['case']} ({particles}, dx {p['dx']:.10g}, "
+               f"{p['state']}, {p['precision']}, {p['interaction']}) takes {words.time(p['total_s'])} with {said[best]}.")
+    gathers = candidates[candidates["backend"].isin(_BASES["gather"])].drop(best, errors="ignore")
+    if len(gathers) and (nearest := int(gathers["time"].idxmin())) not in [one["point"] for one in bases]:
+        details += f" It is {_times_as_fast({**against.loc[nearest], 'name': said[nearest]})}, the fastest gather."
+    return Answer(text + ".", details, best, ties, not reason, reason, command, int(p["n_fluid"] + p["n_boundary"]),
+                  over["gather"], over["symmetric"])
 
 
 def said_of(found: Answer | None) -> list[str]:
@@ -82,7 +84,12 @@ def said_of(found: Answer | None) -> list[str]:
     if found is None:
         return ["Nothing can be recommended from these rows: they hold no backend but those of the self-test."]
     said = words.wrapped(found.text, 100) + words.wrapped(found.details, 100)
-    return [*said.splitlines(), f"{'Run it' if found.decided else 'Run this'}:  {found.command}"]
+    return [*said.splitlines(), f"{'Run it' if found.decided else 'Run this'}:  {found.command}",
+            "Your case:  pairsum tune --case dam_break --dx 0.015   (others: pairsum list cases)"]
+
+
+def _times_as_fast(e: Any) -> str:
+    return f"{words.bounded(e['ratio'], e['low'], e['high'])} times as fast as {e['name']}"
 
 
 def _over(kind: str, candidates: pd.DataFrame, against: pd.DataFrame, said: pd.Series,

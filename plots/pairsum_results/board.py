@@ -53,7 +53,7 @@ def card(report: Report) -> dict[str, Any] | None:
              "Particles": f"{words.count(p['n_fluid'])} fluid"
              + (f", {words.count(p['n_boundary'])} boundary" if p["n_boundary"] else ""),
              "Precision": p["precision"], "Machine": f"{e['host']}: {e['cpu']}, {e['cores']} cores",
-             "Rounds": f"{p['rounds']} of {len(report.results.closed)}"}
+             "Rounds": f"{p['rounds']} of this point, {len(report.results.closed)} in all"}
     return {"text": answer.text, "decided": answer.decided, "numbers": numbers if answer.decided else [],
             "facts": {name: said for name, said in facts.items() if said}, "command": answer.command}
 

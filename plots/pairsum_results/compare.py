@@ -37,9 +37,9 @@ def judged(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def best(results: Results, *free: str, phase: str = "sum_s") -> pd.Series:
-    """Of the points that differ in these columns only, the one with the shortest median of the phase, for every point;
-    null where none was timed."""
-    times, alike = results.times(phase), results.alike(*free)
+    """Of the points that differ in these columns only, the one that is fastest by the phase (Results.typical), for every
+    point; null where none was timed."""
+    times, alike = results.typical(phase), results.alike(*free)
     fastest = times.dropna().groupby(alike).idxmin()
     return alike.map(fastest)
 

@@ -49,7 +49,7 @@ def ladder(results: Results) -> pd.DataFrame:
 
 def _rungs(results: Results) -> pd.DataFrame:
     """`series`, `at`, `point`, `base`, `rank`, `of` of all ladders: each backend's fastest point, fastest first."""
-    points = results.points.assign(time=results.times(EVALUATION))
+    points = results.points.assign(time=results.typical(EVALUATION))
     working = points[~points["backend"].isin(self_tests(results).index)]
     most = points.groupby(["series", "backend"])["threads"].transform("max")
     one = working[working["threads"] == 1].assign(at="one_thread")
@@ -74,7 +74,7 @@ def standings(results: Results) -> pd.DataFrame:
     with `_low` and `_high`: its time over that of the fastest; `tied`: no difference from that is resolved (Holm, over
     these); `world`: the series in a few words. Nothing where one backend alone was timed."""
     keys = ["series", "threads"]
-    points = results.points.assign(time=results.times("total_s")).dropna(subset=["time"]).reset_index()
+    points = results.points.assign(time=results.typical("total_s")).dropna(subset=["time"]).reset_index()
     rungs = points[~points["backend"].isin(self_tests(results).index)].sort_values([*keys, "time", "point"])
     rungs = rungs.drop_duplicates([*keys, "backend"])
     groups = rungs.groupby(keys)

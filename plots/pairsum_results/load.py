@@ -68,6 +68,11 @@ class Results:
         least = self.rounds.groupby("point")[phase].min()
         return self.points[phase].where(least.reindex(self.points.index) > 0)
 
+    def typical(self, phase: str = "sum_s") -> pd.Series:
+        """The geometric means of a phase over rounds by point, null where `times` is: what is fastest is chosen by
+        them, so that no ratio of others to it, which is of geometric means, too, says otherwise."""
+        return np.exp(self.logs(phase).mean()).reindex(self.points.index)
+
     def alike(self, *free: str) -> pd.Series:
         """A number for every point, the same for points of a series that differ in these columns only."""
         keys = ["series", *(name for name in PLACE if name not in free)]

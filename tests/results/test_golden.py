@@ -4,7 +4,8 @@ What differs, and why: rows of schema 2 do not state the backends' traits, nor t
 whether symmetric sums scale as well as gathers, and how near a sum is to what the machine can do, are not answered from
 them. The answer is now set against the gather and the symmetric sum instead of the fastest naive backend; what is the
 fastest and what cannot be told from it is as it was, but in `vector`, where it is now the fastest of all parts instead of
-that of the largest part. Of the questions it has the details alone.
+that of the largest part. Of the questions it has the details alone. What is fastest is now chosen by geometric means, as
+the ratios are; by medians before: ladders, shifts, best M and answers that depend on the choice were written anew.
 """
 import functools
 import json

@@ -32,7 +32,7 @@ def test_report_writes_what_it_prints_and_the_summary_keeps_its_schema(rows, tmp
     path = rows([*made.talk(), (made.point("again_naive_omp"), 1.0)])
     assert program.main(["report", "--tables", path]) == 0
     out, folder = capsys.readouterr().out, tmp_path / "talk/rows"
-    assert out.startswith("On node symmetric_omp (M = 6, 2 threads) is the fastest of 12 measured: 2.00 [2.00, 2.00] times")
+    assert out.startswith("On node symmetric_omp (M = 6, 2 threads) is the fastest of 6 backends: 2.00 [2.00, 2.00] times")
     assert out.endswith((folder / "tables.txt").read_text()
                         + f"tables:  {folder}/tables.txt, tables.md, csv/, rounds.csv, summary.json\n")
     assert (folder / "tables.md").read_text().startswith("# talk on node\n")
