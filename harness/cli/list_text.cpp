@@ -33,19 +33,13 @@ std::string families_text(const registry& r) {
   return text;
 }
 
-/// The words of a kind, as many as a line has room for, and what is not here.
-std::string words_text(const std::vector<listed_word>& entries, std::size_t room) {
+/// The words of a kind, and how many are not here.
+std::string words_text(const std::vector<listed_word>& entries) {
   std::vector<std::string_view> words;
   for (const listed_word& e : entries)
     if (e.here) words.push_back(e.word);
   const std::size_t others = entries.size() - words.size();
-  const std::string tail = others > 0 ? fmt::format(" ({} more in other builds)", others) : "";
-  std::string text = join(words);
-  while (text.size() + tail.size() > room && !words.empty()) {
-    words.pop_back();
-    text = join(words) + ", ...";
-  }
-  return text + tail;
+  return join(words) + (others > 0 ? fmt::format(" ({} more in other builds)", others) : "");
 }
 
 /// The names of all plans, with a star at those that cannot be run as they are.
@@ -96,16 +90,20 @@ std::string overview_text(const registry& r) {
     const bool plans = std::string_view(kind.name) == "plans";
     const auto here = std::ranges::count(entries, true, &listed_word::here);
     const std::string head = fmt::format("{:<12} {:>3}  ", kind.name, plans ? std::ssize(entries) : here);
-    text += filled(head, plans ? starred_plans(entries) : words_text(entries, screen - head.size()), head.size());
+    text += filled(head, plans ? starred_plans(entries) : words_text(entries), head.size());
   }
   return text +
-         "next: pairsum list plans (or backends, cases, ...), pairsum list backends NAME,\n"
-         "      pairsum run PLAN --dry-run, pairsum tune --help; for programs: list --json\n";
+         "next: pairsum list backends NAME, pairsum run PLAN --dry-run, pairsum tune --help\n";
 }
 
 std::string kind_text(const std::string& kind, const registry& r) {
   std::vector<std::string_view> names;
   for (const kind_of_word& k : kinds()) names.emplace_back(k.name);
+  for (const kind_of_word& k : kinds())
+    for (const listed_word& e : entries_of(k, r))
+      if (e.word == kind && std::ranges::find(names, kind) == names.end())
+        throw error(fmt::format("\"{}\" is one of the {}: pairsum list {}{}", kind, k.name, k.name,
+                                std::string_view(k.name) == "backends" ? " " + kind : ""));
   check_word("kind", kind, names);
   if (kind == "backends") return backends_text(r);
   if (kind == "plans") return plans_text();

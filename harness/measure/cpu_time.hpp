@@ -14,6 +14,9 @@ struct machine_time {
 /// Empty where /proc does not report it. The kernel counts in ticks, mostly of 10 ms.
 std::optional<machine_time> machine_time_now();
 
+/// A share of others from which on a measurement counts as disturbed.
+inline constexpr double disturbing_share = 0.05;
+
 /// The share of the machine's time between two readings that others used, besides `own_s` seconds of our own; empty if
 /// a reading is, or if they are the same.
 std::optional<double> share_of_others(const std::optional<machine_time>& before,

@@ -15,7 +15,9 @@ N number(const std::string& option, const std::string& word, const char* kind) {
   N value{};
   const char* const end = word.data() + word.size();
   const auto [stop, failed] = std::from_chars(word.data(), end, value);
-  if (failed != std::errc{} || stop != end) throw error(fmt::format("{} takes {}, not \"{}\"", option, kind, word));
+  const bool padded = word.size() > 1 && word[0] == '0' && word[1] >= '0' && word[1] <= '9';  // of "0,012"
+  if (failed != std::errc{} || stop != end || padded)
+    throw error(fmt::format("{} takes {}, not \"{}\"", option, kind, word));
   return value;
 }
 
@@ -68,7 +70,7 @@ std::uint64_t parse_seed(const std::string& option, const std::string& text) {
 std::vector<double> parse_numbers(const std::string& option, const std::string& text) {
   std::vector<double> values;
   for (const std::string& word : parse_words(option, text))
-    values.push_back(number<double>(option, word, "numbers like 0.02,0.03"));
+    values.push_back(number<double>(option, word, "numbers like 0.02,0.03 (decimals after a point)"));
   return values;
 }
 

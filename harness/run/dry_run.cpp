@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include <pairsum/sum/grids.hpp>
 #include "harness/plan/levels.hpp"
 #include "harness/run/estimate.hpp"
 
@@ -37,6 +39,7 @@ std::string levels_text(const run_request& r) {
   for (const auto& item : levels.items()) {
     const bool always = item.key() == "backend" || item.key() == "dx" || item.key() == "M" || item.key() == "threads" ||
                         item.key() == "state";
+    if (item.key() == "M" && std::ranges::none_of(r.grids, grid_takes_M)) continue;
     if (always || item.value() != standard.at(item.key()))
       text += fmt::format("  {:<14}{}\n", item.key(), text_of(item.value()));
   }

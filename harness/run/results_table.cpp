@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "harness/measure/cpu_time.hpp"
 #include "harness/run/level_columns.hpp"
 #include "harness/terminal/terminal.hpp"
 
@@ -35,18 +36,18 @@ struct cell {
 };
 using line = std::vector<cell>;
 
-/// The row of a point that is `place`-th from the fastest.
-line row_of(const ranked& r, std::size_t place, const level_columns& levels) {
+/// The row of a point that is `place`-th from the fastest; of one alone there is no ratio.
+line row_of(const ranked& r, std::size_t place, const level_columns& levels, bool alone) {
   line cells{{r.what.backend}};
-  if (place == 0) cells.front().how = tone::good;
+  if (place == 0 && !alone) cells.front().how = tone::good;
   for (const std::string& word : levels.words_of(r)) cells.push_back({word});
   const std::vector<double> step = values_of(r.step_s), sum = values_of(r.sum_s);
   const double sum_s = median(sum);
   cells.push_back({digits(1e3 * median(step))});
   cells.push_back({interval_text(median_interval(step), 1e3)});
-  if (place == 0) {
+  if (!alone && place == 0) {
     cells.insert(cells.end(), {{digits(1)}, {""}, {"fastest", tone::good}});
-  } else {
+  } else if (!alone) {
     cells.push_back({digits(r.ratio.value)});
     cells.push_back({interval_text(r.ratio.bounds, 1)});
     cells.push_back(r.is_slower                  ? cell{"slower"}
@@ -120,8 +121,11 @@ std::string results_table(const std::vector<ranking>& all, bool colours, std::si
   const level_columns levels(all);
   line head{{"backend"}};
   for (const std::string& name : levels.names()) head.push_back({name});
-  for (const char* const name : {"step ms", "[low, high]", "ratio", "[low, high]", "it is", "sum ms", "ns/pair"})
-    head.push_back({name});
+  const bool alone = std::ranges::all_of(all, [](const ranking& r) { return r.size() < 2; });
+  for (const char* const name : {"step ms", "[low, high]"}) head.push_back({name});
+  if (!alone)
+    for (const char* const name : {"ratio", "[low, high]", "it is"}) head.push_back({name});
+  for (const char* const name : {"sum ms", "ns/pair"}) head.push_back({name});
   for (cell& c : head) c.how = tone::strong;
   std::vector<line> lines{
       {{levels.common() + (levels.common().empty() ? "" : "; ") + "medians of rounds, intervals of 95 %"}}, head};
@@ -136,7 +140,7 @@ std::string results_table(const std::vector<ranking>& all, bool colours, std::si
       } else if (k >= rows_each || shown >= most_rows) {
         ++hidden;
       } else if (!r.step_s.empty()) {
-        own.push_back(row_of(r, k, levels));
+        own.push_back(row_of(r, k, levels, alone));
         ++shown;
       }
     }
@@ -152,15 +156,14 @@ std::string results_table(const std::vector<ranking>& all, bool colours, std::si
 }
 
 std::string disturbance_text(const std::vector<round_row>& rounds, std::size_t voids) {
-  constexpr double much = 0.05;  // as in the caveats of a report
   const auto disturbed =
-      std::ranges::count_if(rounds, [](const round_row& r) { return r.others_share.value_or(0) > much; });
+      std::ranges::count_if(rounds, [](const round_row& r) { return r.others_share.value_or(0) > disturbing_share; });
   std::string text;
   if (disturbed > 0)
     text = fmt::format(
         "in {} of {} rounds other processes used more than {:.0f} % of the machine: close them and run again with "
         "--fresh",
-        disturbed, rounds.size(), 100 * much);
+        disturbed, rounds.size(), 100 * disturbing_share);
   if (voids > 0)
     text += fmt::format("{}{} void, cut before {} end", text.empty() ? "" : "; ",
                         voids == 1 ? "1 round is" : fmt::format("{} rounds are", voids), voids == 1 ? "its" : "their");

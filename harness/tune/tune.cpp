@@ -8,6 +8,7 @@
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/names.hpp>
 #include "harness/environment/machine.hpp"
+#include "harness/measure/cpu_time.hpp"
 #include "harness/measure/memory.hpp"
 #include "harness/measure/stopwatch.hpp"
 #include "harness/rows/point_words.hpp"
@@ -51,12 +52,15 @@ tune_result tune(const tune_request& r, const registry& all) {
     bench.make_reference(result.points.front());
   }
   result.prepared_s = since_start.seconds();
+  const auto machine_before = machine_time_now();
+  const double own_before = own_time();
   contest_world world;
   world.measure = [&](std::size_t k, std::string& why) { return bench.measure(result.points[k], why); };
   world.left_s = [&] { return r.budget_s - since_start.seconds(); };
   world.interrupted = [] { return interrupted(); };
   world.show = show;
   if (world.left_s() > 0 && !interrupted()) contend(result.candidates, r.rules, world);
+  result.others_share = share_of_others(machine_before, machine_time_now(), own_time() - own_before);
   line.clear();
   result.interrupted = interrupted();
   if (!any_seen(result.candidates) && !result.interrupted)

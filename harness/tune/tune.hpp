@@ -24,7 +24,8 @@ struct tune_result {
   std::vector<contestant> candidates;
   std::optional<std::size_t> winner;
   bool interrupted = false;
-  double prepared_s = 0;  ///< until the first candidate was measured: particles and reference
+  double prepared_s = 0;               ///< until the first candidate was measured: particles and reference
+  std::optional<double> others_share;  ///< of the machine's CPU time, used by other processes meanwhile
 };
 
 /// Looks for the fastest candidate by contend(). Each measurement makes a new summation, loads the particles, evaluates

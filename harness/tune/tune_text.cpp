@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "harness/measure/cpu_time.hpp"
 #include "harness/rows/point_words.hpp"
 #include "harness/terminal/terminal.hpp"
 #include "harness/tune/candidates.hpp"
@@ -13,7 +14,8 @@
 namespace pairsum::harness {
 namespace {
 
-constexpr std::size_t most_looks_shown = 8;  ///< of those that got no rounds
+constexpr std::size_t most_looks_shown = 8;    ///< of those that got no rounds
+constexpr std::size_t most_rounds_shown = 12;  ///< of those that got some
 
 std::string count_of(std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
 
@@ -38,13 +40,15 @@ std::string ladder_text(const tune_result& result, const registry& all, bool col
   for (const rung& r : rungs) width = std::max(width, what_of(result.points[r.candidate], all).size());
   std::string text = "its time over the winner's:\n";
   text += fmt::format("{:<{}}{:>10}  {:<16}{:>7}  {}\n", "candidate", width, "ratio", "[low, high]", "rounds", "it is");
-  std::size_t looked_at = 0;
+  std::size_t looked_at = 0, in_rounds = 0;
   for (const rung& r : rungs) {
     const contestant& c = result.candidates[r.candidate];
-    if (r.ratio.pairs == 0 && ++looked_at > most_looks_shown) continue;
+    if (r.ratio.pairs == 0 ? ++looked_at > most_looks_shown : ++in_rounds > most_rounds_shown) continue;
     text += fmt::format("{:<{}}{:>10.3f}  {:<16}{:>7}  {}\n", what_of(result.points[r.candidate], all), width,
                         r.ratio.value, interval_text(r.ratio), c.times.size(), verdict_text(r, c, colours));
   }
+  if (in_rounds > most_rounds_shown)
+    text += fmt::format("and {} more, measured in rounds (all of them: --json)\n", in_rounds - most_rounds_shown);
   if (looked_at > most_looks_shown)
     text += fmt::format("and {} more, set aside after their looks\n", looked_at - most_looks_shown);
   return text;
@@ -90,7 +94,12 @@ std::string tune_text(const tune_request& r, const tune_result& result, const re
           ? fmt::format(" [{:.4g}, {:.4g}], {}", 1e3 * time.bounds->low, 1e3 * time.bounds->high,
                         count_of(time.rounds, "round"))
           : fmt::format(" (no interval: {})", time.rounds == 0 ? "looks alone" : count_of(time.rounds, "round")));
-  return text + ladder_text(result, all, colours) + left_out_text(result, all, colours);
+  return text + ladder_text(result, all, colours) + left_out_text(result, all, colours) +
+         (result.others_share.value_or(0) > disturbing_share
+              ? coloured(tone::doubtful, "disturbed", colours) +
+                    fmt::format(": other processes used {:.0f} % of the machine meanwhile; close them and tune again\n",
+                                100 * *result.others_share)
+              : "");
 }
 
 }  // namespace pairsum::harness

@@ -37,12 +37,14 @@ std::string join(const Names& names) {
   return all;
 }
 
-/// The error for a word that names nothing: the nearest of those that do, and all of them.
+/// The error for a word that names nothing: the nearest of those that do and, unless that is enough, all of them.
 template <class Names>
 error unknown_name(std::string_view what, std::string_view word, const Names& valid) {
-  return error("unknown " + std::string(what) + " \"" + std::string(word) + "\";" +
-               hint_for(word, std::vector<std::string>(std::ranges::begin(valid), std::ranges::end(valid))) +
-               " valid: " + join(valid));
+  constexpr std::size_t most_beside_a_hint = 12;
+  const std::vector<std::string> words(std::ranges::begin(valid), std::ranges::end(valid));
+  const std::string hint = hint_for(word, words);
+  return error("unknown " + std::string(what) + " \"" + std::string(word) + "\";" + hint +
+               (hint.empty() || words.size() <= most_beside_a_hint ? " valid: " + join(words) : ""));
 }
 
 /// Throws unknown_name unless `word` is one of `valid`.

@@ -102,6 +102,8 @@ def collect(rows: dict[str, pd.DataFrame], allow_mixed: bool = False) -> Results
         raise ResultsError(f"the rows come from different machines or builds: {differ}; report them apart, or with "
                            "--allow-mixed as series of their own")
     caveats = builds.caveats(closed, environments, differ, together)
+    caveats += [f"{source} holds {n} round{'s' * (n > 1)} of {of}, too: taken once"
+                for (source, of), n in rows["copies"].groupby(["source", "of"]).size().items()]
     backends = _backends(rows["backend"], samples)
     samples = _with_points(samples)
     failed = _failed(samples)
@@ -116,7 +118,7 @@ def collect(rows: dict[str, pd.DataFrame], allow_mixed: bool = False) -> Results
     rounds = rounds.join(points[["study", "series", "build", *POINT]], on="point")
     rounds = rounds.join(first[["host", "cpu", "git"]], on="build").sort_values(["point", "file", "round"])
     peaks, paces = _peaks(rows["peak"], paces, environments)
-    sources = list(dict.fromkeys(pd.concat([frame["source"] for frame in rows.values()])))
+    sources = list(dict.fromkeys(pd.concat([rows[kind]["source"] for kind in rows if kind != "copies"])))
     return Results(sources, samples, rounds.reset_index(drop=True), points.drop(columns="fewest_steps"), series,
                    environments, backends, peaks, paces, closed, failed, len(rows["void"]), together, caveats)
 

@@ -255,8 +255,9 @@ def rows_paths(given: str | pathlib.Path | Iterable[str | pathlib.Path]) -> list
 
 
 def read(given: str | pathlib.Path | Iterable[str | pathlib.Path]) -> dict[str, pd.DataFrame]:
-    """The rows of all files by kind, with "file" (0, 1, ...) and "source" (folder and file name) as columns. Raises
-    ResultsError with one line for a bad file, and for two that hold the same round."""
+    """The rows of all files by kind, with "file" (0, 1, ...) and "source" (folder and file name) as columns, and as kind
+    "copies" what was left out: rounds that an earlier file holds, too. Raises ResultsError with one line for a bad
+    file, and for one that holds a round of another with other values."""
     paths, files = rows_paths(given), []
     for number, path in enumerate(paths):
         source = (pathlib.Path(path.parent.name) / path.name).as_posix()
@@ -264,9 +265,36 @@ def read(given: str | pathlib.Path | Iterable[str | pathlib.Path]) -> dict[str, 
     # Without the empty ones, whose columns of floats would make floats of integers.
     found = {kind: pd.concat([rows[kind] for rows in files if len(rows[kind])] or [files[0][kind]], ignore_index=True)
              for kind in _KINDS}
-    same = ["study", "environment", "utc", "round"]
-    for again in found["round"][found["round"].duplicated(same)].itertuples():
-        first = found["round"].merge(pd.DataFrame([again])[same], on=same)["file"][0]
-        raise ResultsError(f"{paths[first]} and {paths[again.file]} both hold round {again.round} of {again.study} "
-                           f"({again.utc}): it counts once, so leave one of the files out")
-    return found
+    return _without_copies(found, paths)
+
+
+#: What no two rounds have in common: study, machine and build, plan, seed, time and number.
+_IDENTITY = ["study", "environment", "plan", "seed", "utc", "round"]
+_PLACE = ["file", "study", "round"]
+
+
+def _without_copies(found: dict[str, pd.DataFrame], paths: list[pathlib.Path]) -> dict[str, pd.DataFrame]:
+    """Of rounds that several files hold only the first, which is void if one of them is."""
+    closed = found["round"]
+    first = closed.groupby(_IDENTITY, sort=False)["file"].transform("first")
+    copies = closed.assign(of_file=first).loc[first != closed["file"], [*_PLACE, "source", "of_file"]]
+    copies["of"] = copies["of_file"].map(closed.drop_duplicates("file").set_index("file")["source"])
+    for kind in ("sample", "pace", "void", "round") if len(copies) else ():
+        frame = found[kind]
+        of = frame[_PLACE].merge(copies[[*_PLACE, "of_file"]], how="left")["of_file"]
+        if kind == "sample":
+            _check_copies(frame, frame[of.notna()].assign(file=of.dropna().astype(int)), paths)
+        found[kind] = (frame.assign(file=of.fillna(frame["file"]).astype(int)) if kind == "void" else
+                       frame[of.isna()].reset_index(drop=True))
+    return found | {"copies": copies}
+
+
+def _check_copies(samples: pd.DataFrame, copies: pd.DataFrame, paths: list[pathlib.Path]) -> None:
+    """Raises unless the samples of copied rounds, under the number of the file they are copies of, are in that, too."""
+    values = [*_PLACE, "slot", "repetition", "step", "total_s", "sum_s", "error"]
+    known, said = (pd.MultiIndex.from_frame(frame[values].fillna(-1)) for frame in (samples, copies))
+    for _, wrong in copies[~said.isin(known)].iterrows():
+        raise ResultsError(f"{paths[wrong['file']]} and another file hold round {wrong['round']} of {wrong['study']} "
+                           "with different values: one of them was changed; leave it out")
+
+

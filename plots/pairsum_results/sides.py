@@ -83,6 +83,8 @@ def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_m
                 raise ResultsError(f'"{name}" holds rows of several builds, and a comparison takes one a side; pairsum '
                                    "report compares them")
         differ = _differences(sides, allow_mixed)
+        if all(are_files) and len(read([a, b])["copies"]):
+            raise ResultsError(f'"{a}" and "{b}" hold the same rounds: nothing can be compared')
     if not all(are_files):
         logs = pd.concat([side.logs(f"{phase}_s").add_prefix(name) for side, name in zip(sides, "ab")], axis=1)
     pairs = (_backend_pairs(sides[0], _side(a), _side(b), f"{phase}_s") if sides[0] is sides[1] else _timed(
@@ -214,7 +216,7 @@ def _both(a: Any, b: Any) -> str:
 def _place(p: Any, q: Any, before: str, rare: str) -> str:
     """What a point and its counterpart are, in the words that tell the pairs apart."""
     a, b = _variant(p), _variant(q)
-    variants = a if a == b or not b else b if not a else f"{a} /{b}"
+    variants = a if a == b else f"{a or ' scalar'} /{b or ' scalar'}"
     return (f"{before}{p.case} {_both(p.state, q.state)} dx={p.dx:.10g} {_both(cells_words(p), cells_words(q))} "
             f"threads={_both(p.threads, q.threads)}{variants}{rare}")
 
@@ -227,7 +229,8 @@ def _table(pairs: pd.DataFrame, sides: list[Results], phase: str) -> str:
               bounded(e.ratio, e.low, e.high, 3, "  too few rounds"), e.verdict]
              for p, q, e, (origin, rare) in zip(first, second, pairs.itertuples(), words)]
     count = pairs["verdict"].value_counts()
-    return text_table(["point", "rounds", "A ms", "B ms", "A/B [low, high]", "B is"], lines, 1) + (
+    return text_table(["point", "rounds", *(f"{side} {phase.removesuffix('_s')} ms" for side in "AB"), "A/B [low, high]", "B is"],
+                      lines, 1) + (
         f"Of {len(pairs)} comparison{'' if len(pairs) == 1 else 's'} B is faster in {count.get('faster', 0)}, slower "
         f"in {count.get('slower', 0)}, no difference is resolved in {count.get('not resolved', 0)} (95 % confidence "
-        "over all of them).\n")
+        "over all of them).\n") + ("Times are those of the sum alone; --phase total compares whole steps.\n" * (phase == "sum_s"))

@@ -71,7 +71,8 @@ def hint(word: str, valid: Iterable[str]) -> str:
 
 def unknown(what: str, word: str, valid: Iterable[str]) -> str:
     """What is said of a word that is none of the valid ones."""
-    return f'unknown {what} "{word}";{hint(word, valid)} valid: {", ".join(valid)}'
+    near, all_words = hint(word, valid), list(valid)
+    return f'unknown {what} "{word}";{near}' + ("" if near and len(all_words) > 12 else f' valid: {", ".join(all_words)}')
 
 
 def threads_words(n: int) -> str:

@@ -20,6 +20,7 @@ BAD_RUNS = [
     (["--dx", "-1"], ["dx must be a positive"]),
     (["--dx", "nan"], ["dx must be a positive"]),
     (["--dx", "inf"], ["dx must be a positive"]),
+    (["--dx", "0,012"], ["--dx takes numbers like 0.02,0.03 (decimals after a point), not \"012\""]),
     (["--dx", "0.5"], ["dam_break needs dx"]),
     (["--H", "nan"], ["H must be a positive"]),
     (["--H", "-0.1"], ["H must be a positive"]),

@@ -42,6 +42,11 @@ def test_a_misspelt_word_is_refused_with_what_was_meant(pairsum, words, says):
     assert refused(pairsum(*words), says)
 
 
+def test_what_was_meant_is_not_followed_by_a_long_list(pairsum):
+    assert pairsum("verify", "--backend", "tiles_opm").stderr.endswith("did you mean tiles_omp?\n")
+    assert "valid: naive, naive_omp, " in pairsum("verify", "--backend", "xyzzy").stderr
+
+
 @pytest.mark.parametrize("words", [
     ["xyzzy"], ["--xyzzy"], ["run", "--xyzzy", "3"], ["run", "xyzzy"], ["verify", "xyzzy"], ["report", "rows.jsonl", "--xyzzy"],
     *([*SMALL, f"--{level}", "xyzzy"] for level in ["backend", "case", "state", "interaction", "smoothing", "precision", "integrator", "grid",

@@ -36,10 +36,17 @@ def test_everything_is_on_one_screen(pairsum, listed):
         words = [w["name"] if isinstance(w, dict) else str(w) for w in listed[kind]]
         line = re.search(rf"^{kind} +(\d+)  (.*)$", done.stdout, re.M)
         assert line[2].startswith(words[0]), line[0]
+        assert kind == "plans" or all(re.search(rf"\b{re.escape(word)}\b", done.stdout) for word in words)
     assert f"\ninteractions {len(listed['interactions']):>3}  " in done.stdout
     plans = re.search(r"^plans +10  (.*\n +.*)$", done.stdout, re.M)[1]
     assert re.findall(r"\w+", plans.split("(")[0]) == [p["name"] for p in listed["plans"]] and "compilers*" in plans
     assert "pairsum list backends NAME" in done.stdout
+
+
+@pytest.mark.parametrize("word, said", [("tiles_omp", "backends: pairsum list backends tiles_omp"),
+                                        ("dam_break", "cases: pairsum list cases"), ("quick", "plans: pairsum list plans")])
+def test_a_word_of_a_kind_is_told_where_it_is(pairsum, word, said):
+    assert refused(pairsum("list", word), f'"{word}" is one of the {said}')
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -205,6 +205,12 @@ TEST(results_table, of_many_problems_shows_the_largest) {
   EXPECT_TRUE(has(text, "dx 0.01,") && !has(text, "dx 0.011,")) << text;
 }
 
+TEST(results_table, of_one_point_has_no_ratio) {
+  const std::string text = results_table(rank(measured(made_point("a"), 0.002)));
+  EXPECT_TRUE(has(text, "step ms") && has(text, "sum ms")) << text;
+  for (const char* const word : {"ratio", "it is", "fastest"}) EXPECT_FALSE(has(text, word)) << text;
+}
+
 TEST(results_table, has_colours_only_if_it_shall) {
   const auto all = rank(joined({measured(made_point("a"), 0.002), measured(made_point("b"), 0.004)}));
   EXPECT_EQ(results_table(all).find('\x1b'), std::string::npos);

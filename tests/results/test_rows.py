@@ -3,11 +3,13 @@ import json
 
 import made
 import numpy as np
+import pandas as pd
 import pytest
 from conftest import ROOT
 
 import pairsum_results as pr
 from pairsum_results import rows, summary
+from pairsum_results.sides import compare_sides
 
 
 def changed(kind, /, **change):
@@ -139,11 +141,47 @@ def test_folders_are_read_with_those_below_and_without_empty_files(tmp_path):
 def test_a_copy_of_a_rows_file_gives_no_new_rounds(tmp_path):
     first, content = made.write(tmp_path / "rows.jsonl", changed("sample")), changed("sample")
     copy = made.write(tmp_path / "copy.jsonl", content)
-    with pytest.raises(pr.ResultsError) as caught:
-        pr.load([first, copy])
-    assert str(caught.value).startswith(f"{first} and {copy} both hold round 1 of talk (2026-11-22T15:30:00.123Z): ")
+    alone, both = pr.load(first), pr.load([first, copy])
+    pd.testing.assert_frame_equal(alone.points, both.points)
+    name = tmp_path.name
+    assert both.caveats == [*alone.caveats, f"{name}/copy.jsonl holds 2 rounds of {name}/rows.jsonl, too: taken once"]
+    pd.testing.assert_frame_equal(alone.rounds, pr.load([copy, first]).rounds)
     made.write(copy, [{**row, "utc": "2026-11-23T15:30:00Z"} for row in content])  # measured the next day
     assert pr.load([first, copy]).points["rounds"].to_list() == [4]
+
+
+def test_of_partly_equal_files_each_round_counts_once(tmp_path):
+    """A study was copied after its fourth round, and both went on."""
+    def gone_on(until, utc):
+        rows = made.study([(made.point("naive"), 1.0), (made.point("symmetric"), 0.5)], 6)
+        return [row if row.get("round", 1) <= until else {**row, "utc": utc} for row in rows]
+    first = made.write(tmp_path / "a.jsonl", gone_on(6, ""))
+    other = made.write(tmp_path / "b.jsonl", gone_on(4, "2026-11-23T15:30:00Z"))
+    both = pr.load([first, other])
+    assert both.points["rounds"].to_list() == [8, 8] and "b.jsonl holds 4 rounds of" in both.caveats[-1]
+
+
+def test_a_round_that_is_void_in_a_copy_does_not_count(tmp_path):
+    content = made.study([(made.point("naive"), 1.0)], 6)
+    void = {**{key: content[-1][key] for key in ("schema", "study", "utc")}, "kind": "void", "round": 2, "reason": "x"}
+    files = [made.write(tmp_path / "a.jsonl", content), made.write(tmp_path / "b.jsonl", [*content, void])]
+    assert pr.load(files).points["rounds"].to_list() == [5] == pr.load(files[::-1]).points["rounds"].to_list()
+
+
+def test_a_copy_that_was_changed_is_refused(tmp_path):
+    content = made.study([(made.point("naive"), 1.0)], 6)
+    first = made.write(tmp_path / "a.jsonl", content)
+    changed_row = next(row for row in content if row["kind"] == "sample" and row["round"] == 3)
+    changed_row["phases"]["sum_s"] /= 2
+    with pytest.raises(pr.ResultsError, match="hold round 3 of talk with different values: one of them was changed"):
+        pr.load([first, made.write(tmp_path / "b.jsonl", content)])
+
+
+def test_a_file_is_not_compared_with_its_copy(tmp_path):
+    content = made.study([(made.point("naive"), 1.0)], 6)
+    files = [str(made.write(tmp_path / name, content)) for name in ("a.jsonl", "b.jsonl")]
+    with pytest.raises(pr.ResultsError, match="hold the same rounds: nothing can be compared"):
+        compare_sides(*files, [])
 
 
 def test_integers_stay_integers_beside_a_file_without_such_rows(tmp_path):
