@@ -83,8 +83,6 @@ def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_m
                 raise ResultsError(f'"{name}" holds rows of several builds, and a comparison takes one a side; pairsum '
                                    "report compares them")
         differ = _differences(sides, allow_mixed)
-        if all(are_files) and len(read([a, b])["copies"]):
-            raise ResultsError(f'"{a}" and "{b}" hold the same rounds: nothing can be compared')
     if not all(are_files):
         logs = pd.concat([side.logs(f"{phase}_s").add_prefix(name) for side, name in zip(sides, "ab")], axis=1)
     pairs = (_backend_pairs(sides[0], _side(a), _side(b), f"{phase}_s") if sides[0] is sides[1] else _timed(
@@ -92,6 +90,8 @@ def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_m
     if pairs.empty:
         raise ResultsError(f'"{a}" and "{b}" have no point in common (same study, seed, case, dx, grid, M, threads'
                            f'{"" if sides[0] is sides[1] else ", backend"})')
+    if all(are_files) and len(read([a, b])["copies"]):
+        raise ResultsError(f'"{a}" and "{b}" hold the same rounds: nothing can be compared')
     pairs = pairs.sort_values(["point_a", "point_b"], ignore_index=True)
     pairs = pairs.join(stats.ratios(logs, "a" + pairs["point_a"].astype(str), "b" + pairs["point_b"].astype(str)))
     failed = pd.concat([side.failed for side in (sides[:1] if sides[0] is sides[1] else sides)])
