@@ -169,6 +169,6 @@ say "report: $((SECONDS - began)) s; what every step printed: $(shown "$logs")/"
 # ---- the answer of the first study, then where the pages lie
 say
 grep -v '^\(tables\|figures\|page\): ' "$logs/report_$(basename "$(dirname "${found[0]}")").txt" |
-  sed "s|  pairsum \(run\|tune\)|  $(shown "$program") \1|"
+  sed -E "s#  pairsum (run|tune)#  $(shown "$program") \1#"
 say
 for file in "${found[@]}"; do say "look at it: $(shown "${file%.jsonl}/report.html")"; done

@@ -5,6 +5,7 @@
 #include <regex>
 
 #include <pairsum/core/error.hpp>
+#include "harness/self_test/forwarding_summation.hpp"
 #include "harness/self_test/self_test.hpp"
 #include "harness/tune/paired_times.hpp"
 #include "harness/tune/profile_json.hpp"
@@ -28,6 +29,37 @@ tune_request small(std::vector<std::string> backends) {
 const contestant& of(const tune_result& result, const std::string& backend) {
   const auto at = std::ranges::find(result.points, backend, &point::backend);
   return result.candidates.at(static_cast<std::size_t>(at - result.points.begin()));
+}
+
+/// Notes its loads and sums: "l", "s".
+struct noting_summation final : forwarding_summation {
+  using forwarding_summation::forwarding_summation;
+  static inline std::string calls;
+  void load(const particle_table& p, const std::vector<std::uint32_t>& order, const team& t) override {
+    calls += "l";
+    forwarding_summation::load(p, order, t);
+  }
+  void sum(const team& t) override {
+    calls += "s";
+    forwarding_summation::sum(t);
+  }
+};
+
+TEST(tune, times_groups_of_steps_from_particles_loaded_anew) {
+  registry all = registry::instance();
+  const auto naive = std::ranges::find(all.backends(), "naive", [](const auto& b) { return b.traits.name; });
+  backend_traits traits = naive->traits;
+  traits.name = "noting";
+  all.add_wrapper(traits, "naive", [](std::unique_ptr<summation> inner, const setup&) -> std::unique_ptr<summation> {
+    noting_summation::calls += "new ";
+    return std::make_unique<noting_summation>(std::move(inner), "noting", "");
+  });
+  tune_request r = small({"noting"});
+  r.budget_s = 2;
+  noting_summation::calls.clear();
+  tune(r, all);
+  EXPECT_TRUE(std::regex_search(noting_summation::calls, std::regex("new ls(lsssss)+new "))) << noting_summation::calls;
+  EXPECT_FALSE(std::regex_search(noting_summation::calls, std::regex("s{6}"))) << noting_summation::calls;
 }
 
 TEST(tune, a_backend_slowed_by_a_fifth_does_not_win_and_a_corrupt_one_gets_no_time) {
