@@ -187,7 +187,7 @@ def talk_claims(revision):
 
 def talk_fastest():
     """The talk's particles on 2 threads and compact_grid: the fastest strategies against scalar naive_omp."""
-    results, _ = rows("talk", "3349c07")
+    results, _ = rows("talk", "fa9ddd4")
     points = over(results, grid="compact_grid", threads=2)
     base = over(results, grid="compact_grid", threads=2, backend="naive_omp", isa="scalar")[0]
     ratios = pr.compared(results, [base] * len(points), points, "total_s").sort_values("time_s")
@@ -197,7 +197,7 @@ def talk_fastest():
 
 
 def hash_sizes():
-    results, _ = rows("m_sweep", "3349c07")
+    results, _ = rows("m_sweep", "fa9ddd4")
     lines = []
     for _, x in pr.m_comparison(results).query("series == 0").iterrows():
         lines.append([f"`{x['backend']}`", f"{x['M']:.0f}", f"{1e3 * x['sum_s']:.0f}", f"{100 * x['collision_share']:.0f} %",
@@ -216,7 +216,7 @@ TABLES = {
     "take": what_to_take, "take_vector": what_to_take_on_vector_units,
     "field": lambda: ladders("field", "most_threads"), "field_serial": lambda: ladders("field", "one_thread", "over_serial"),
     "lanes": lambda: ladders("lanes", "most_threads"), "vector_gain": vector_gain, "full_size": full_size,
-    "sets_and_blocks": instruction_sets_and_blocks, "talk_now": lambda: talk("3349c07"), "talk_now_claims": lambda: talk_claims("3349c07"), "talk_fastest": talk_fastest,
+    "sets_and_blocks": instruction_sets_and_blocks, "talk_now": lambda: talk("fa9ddd4"), "talk_now_claims": lambda: talk_claims("fa9ddd4"), "talk_fastest": talk_fastest,
     "talk": lambda: talk("8a2a02c"), "talk_claims": lambda: talk_claims("8a2a02c"), "hash_sizes": hash_sizes,
     "self_test": self_test,
 }
