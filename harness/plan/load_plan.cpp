@@ -1,12 +1,8 @@
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include <pairsum/core/error.hpp>
 #include <pairsum/core/names.hpp>
 #include "harness/plan/study.hpp"
+#include "harness/rows/json_file.hpp"
 
 namespace pairsum::harness {
 
@@ -19,18 +15,7 @@ nlohmann::json load_plan(const std::string& word) {
     }
     throw unknown_name("plan", word, names);
   }
-  std::error_code code;
-  if (std::filesystem::is_directory(word, code)) throw error(word + ": is a folder, should be a plan (a JSON file)");
-  std::ifstream file(word);
-  if (!file) throw error(fmt::format("{}: cannot be read, should be a plan (a JSON file)", word));
-  try {
-    return nlohmann::json::parse(file);
-  } catch (const nlohmann::json::exception& e) {
-    throw error(fmt::format("{}: is no whole JSON (byte {})", word,
-                            dynamic_cast<const nlohmann::json::parse_error*>(&e) != nullptr
-                                ? static_cast<const nlohmann::json::parse_error&>(e).byte
-                                : 0));
-  }
+  return read_json_file(word, "a plan");
 }
 
 }  // namespace pairsum::harness

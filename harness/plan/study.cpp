@@ -10,6 +10,7 @@
 #include <pairsum/core/names.hpp>
 #include "harness/plan/levels.hpp"
 #include "harness/plan/variants.hpp"
+#include "harness/rows/fields.hpp"
 #include "harness/rows/hash_text.hpp"
 
 namespace pairsum::harness {
@@ -45,7 +46,9 @@ int whole_of(const json& value, const std::string& key, int least, int most) {
 
 std::string text_of(const json& value, const std::string& key) {
   if (!value.is_string()) wrong(key, "a text", value);
-  return value.get<std::string>();
+  const auto text = value.get<std::string>();
+  if (has_controls(text)) wrong(key, "a text without control characters", value);
+  return text;
 }
 
 bool flag_of(const json& value, const std::string& key) {

@@ -67,7 +67,7 @@ struct shipped_plan {
 const std::vector<shipped_plan>& shipped_plans();
 
 /// The JSON of a shipped plan, or of the file if the word ends in .json or has a slash. Throws pairsum::error that
-/// lists the shipped plans, or says what is wrong with the file.
+/// lists the shipped plans, or says what is wrong with the file and where.
 nlohmann::json load_plan(const std::string& word);
 
 }  // namespace pairsum::harness

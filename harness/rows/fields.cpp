@@ -34,6 +34,14 @@ bool is_count(const nlohmann::json& value) {
 
 }  // namespace
 
+bool has_controls(const std::string& text) {
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const auto byte = static_cast<unsigned char>(text[k]);
+    if (byte < 0x20 || byte == 0x7F || (byte == 0xC2 && static_cast<unsigned char>(text[k + 1]) < 0xA0)) return true;
+  }
+  return false;
+}
+
 std::string describe(const nlohmann::json& value) {
   if (value.is_null()) return "null";
   if (value.is_string()) return "a string";
@@ -136,6 +144,7 @@ bool fields::boolean(const char* key) {
 std::string fields::text(const char* key) {
   const auto& value = at(key);
   if (!value.is_string()) reject(key, "a string");
+  if (has_controls(value.get_ref<const std::string&>())) reject(key, "a string without control characters");
   return value.get<std::string>();
 }
 
@@ -143,7 +152,7 @@ std::optional<std::string> fields::text_or_null(const char* key) {
   const auto& value = at(key);
   if (value.is_null()) return std::nullopt;
   if (!value.is_string()) reject(key, "a string or null");
-  return value.get<std::string>();
+  return text(key);
 }
 
 std::string fields::hex(const char* key) {

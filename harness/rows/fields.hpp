@@ -34,6 +34,7 @@ class fields {
   std::uint64_t count(const char* key);
   std::optional<std::uint64_t> count_or_null(const char* key);
   bool boolean(const char* key);
+  /// A text without control characters.
   std::string text(const char* key);
   std::optional<std::string> text_or_null(const char* key);
   /// 16 lower-case hex digits.
@@ -57,6 +58,9 @@ class fields {
   std::string prefix_;
   std::vector<std::string> asked_;
 };
+
+/// Has the text control characters: those of ASCII or, in UTF-8, U+0080 to U+009F, which steer terminals, too?
+bool has_controls(const std::string& text);
 
 /// What a JSON value is, in words: "a string", "null", "the number 0.5".
 std::string describe(const nlohmann::json& value);

@@ -4,11 +4,12 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
 #include <pairsum/core/error.hpp>
+#include "harness/rows/json_file.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -17,8 +18,10 @@ using nlohmann::json;
 
 std::atomic<std::uint64_t> bytes_read = 0;
 
-/// The contents of a file after the first `offset` bytes.
-std::string read_text(const std::filesystem::path& path, std::size_t offset) {
+constexpr std::size_t longest_line = std::size_t{16} << 20;
+
+/// A file behind its first `offset` bytes.
+std::ifstream opened(const std::filesystem::path& path, std::size_t offset) {
   std::error_code code;
   if (std::filesystem::is_directory(path, code)) throw error(path.string() + ": is a folder, should be a rows file");
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
@@ -26,9 +29,18 @@ std::string read_text(const std::filesystem::path& path, std::size_t offset) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw error(path.string() + ": cannot be read: " + std::strerror(errno));
   file.seekg(static_cast<std::streamoff>(offset));
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  bytes_read += text.size();
-  return text;
+  return file;
+}
+
+/// Reads up to a megabyte more; false at the end of the file.
+bool append(std::ifstream& file, std::string& text) {
+  const std::size_t before = text.size(), more = std::size_t{1} << 20;
+  text.resize(before + more);
+  file.read(text.data() + before, static_cast<std::streamsize>(more));
+  const auto found = static_cast<std::size_t>(file.gcount());
+  text.resize(before + found);
+  bytes_read += found;
+  return found == more;
 }
 
 }  // namespace
@@ -36,21 +48,29 @@ std::string read_text(const std::filesystem::path& path, std::size_t offset) {
 /// Adds the rows of what was appended line by line, and knows where it is for the messages.
 class rows_reader::parser {
  public:
-  parser(const std::string& text, rows_reader& to) : text_(text), to_(to), rows_(to.rows_) {}
-
-  void parse(cut_line last_line) {
+  parser(rows_reader& to, cut_line last_line) : to_(to), rows_(to.rows_), last_line_(last_line) {
     rows_.last_line_cut = false;
-    for (std::size_t begin = 0; begin < text_.size();) {
+  }
+
+  /// Takes in the lines of a text but for the last, and that, too, if the file ends with it. Returns how many bytes
+  /// these are.
+  std::size_t parse(const std::string& text, bool file_ends) {
+    if (to_.lines_ == 0) check_beginning(text);
+    std::size_t begin = 0;
+    while (begin < text.size()) {
       number_ = to_.lines_ + 1;
-      const std::size_t newline = text_.find('\n', begin);
+      const std::size_t newline = text.find('\n', begin);
       const bool whole = newline != std::string::npos;
-      const std::size_t end = whole ? newline : text_.size();
-      const bool last = !whole || newline + 1 == text_.size();
-      if (parse_line(text_.substr(begin, end - begin), whole, last, last_line)) break;
+      const std::size_t end = whole ? newline : text.size();
+      const bool last = !whole || newline + 1 == text.size();
+      if (end - begin > longest_line) fail("the line has more than 16 MB");
+      if (last && !file_ends) break;
+      if (parse_line(text.substr(begin, end - begin), whole, last)) break;
       ++to_.lines_;
       to_.offset_ += end + 1 - begin;
       begin = end + 1;
     }
+    return begin;
   }
 
  private:
@@ -63,8 +83,16 @@ class rows_reader::parser {
          "\", " + why);
   }
 
+  /// Before a first line that may be long is read to its end.
+  void check_beginning(std::string_view text) {
+    number_ = 1;
+    check_encoding(text.substr(0, 4), rows_.path.string());
+    if (!text.empty() && !without_mark(text).starts_with('{')) foreign("is not");
+  }
+
   /// Returns true if the line was cut and dropped.
-  bool parse_line(const std::string& line, bool whole, bool last, cut_line last_line) {
+  bool parse_line(std::string_view line, bool whole, bool last) {
+    if (number_ == 1) line = without_mark(line);
     json j;
     bool parsed = true;
     std::string why;
@@ -78,11 +106,10 @@ class rows_reader::parser {
       why = "it holds a number out of range";
     }
     const bool looks_cut = !whole || (last && !parsed);
-    if (number_ == 1 && (line.empty() || line[0] != '{')) foreign("is not");
     if (number_ == 1 && parsed && !j.contains("schema")) foreign("has none");
     if (number_ == 1 && !parsed && !(cut_row(line) && (last || line.size() > 2))) foreign("is not");
     if (looks_cut) {
-      if (last_line == cut_line::drop) return rows_.last_line_cut = true;
+      if (last_line_ == cut_line::drop) return rows_.last_line_cut = true;
       fail("the last line is cut (" + std::string(whole ? why : "no newline at its end") + "); remove it to keep the " +
            std::to_string(rows_.size()) + " whole rows before it");
     }
@@ -99,7 +126,7 @@ class rows_reader::parser {
   }
 
   /// Whether a line that does not parse can be the beginning of a row, by the keys that come first.
-  static bool cut_row(const std::string& line) {
+  static bool cut_row(std::string_view line) {
     for (const std::string begin : {"{\"bandwidth_bytes_per_s\":", "{\"barrier_wait_s\":", "{\"binding\":",
                                     "{\"elapsed_s\":", "{\"environment\":", "{\"kind\":", "{\"schema\":"})
       if (line.compare(0, begin.size(), begin, 0, line.size()) == 0) return true;
@@ -158,9 +185,9 @@ class rows_reader::parser {
     rows_.rounds.push_back(std::move(r));
   }
 
-  const std::string& text_;
   rows_reader& to_;
   rows_file& rows_;
+  cut_line last_line_;
   std::size_t number_ = 0;
   bool former_ = false;
 };
@@ -220,9 +247,15 @@ bool rows_reader::has_rows() const {
 }
 
 void rows_reader::read_on(cut_line last_line) {
-  const std::string text = read_text(rows_.path, offset_);
-  if (text.empty() && offset_ == 0) throw error(rows_.path.string() + ": is empty, should hold rows of " + row_schema);
-  parser(text, *this).parse(last_line);
+  std::ifstream file = opened(rows_.path, offset_);
+  parser lines(*this, last_line);
+  std::string text;
+  for (bool more = true; more;) {
+    more = append(file, text);
+    if (text.empty() && offset_ == 0)
+      throw error(rows_.path.string() + ": is empty, should hold rows of " + row_schema);
+    text.erase(0, lines.parse(text, !more));
+  }
 }
 
 std::size_t rows_reader::drop_cut_line() {

@@ -66,6 +66,8 @@ class rows_reader {
 
   const rows_file& rows() const { return rows_; }
   const known_names& known() const { return known_; }
+  /// How many bytes of the file are read.
+  std::size_t bytes() const { return offset_; }
   /// Is there a file with something in it?
   bool has_rows() const;
 

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include <pairsum/core/error.hpp>
@@ -12,6 +10,7 @@
 #include "harness/environment/machine.hpp"
 #include "harness/plan/levels.hpp"
 #include "harness/rows/fields.hpp"
+#include "harness/rows/json_file.hpp"
 #include "harness/tune/candidates.hpp"
 #include "harness/tune/winner.hpp"
 
@@ -28,17 +27,7 @@ json bound(const std::optional<interval>& bounds, double interval::*side) {
   return bounds ? json((*bounds).*side) : json(nullptr);
 }
 
-json parsed(const std::string& path) {
-  std::error_code code;
-  if (std::filesystem::is_directory(path, code)) throw error("is a folder");
-  std::ifstream file(path);
-  if (!file) throw error("cannot be read");
-  try {
-    return json::parse(file);
-  } catch (const json::parse_error& e) {
-    throw error(fmt::format("is no whole JSON (byte {})", e.byte));
-  }
-}
+constexpr const char* kind = "a profile of pairsum tune";
 
 saved_profile read(const json& j) {
   saved_profile p;
@@ -101,8 +90,8 @@ json profile_json(const tune_request& r, const tune_result& result, const regist
 }
 
 saved_profile read_profile(const std::string& path) {
+  const json j = read_json_file(path, kind);
   try {
-    const json j = parsed(path);
     if (!j.is_object()) throw error("should be a JSON object");
     return read(j);
   } catch (const error& e) {
@@ -112,7 +101,7 @@ saved_profile read_profile(const std::string& path) {
 
 bool is_profile(const std::string& path) {
   try {
-    const json j = parsed(path);
+    const json j = read_json_file(path, kind);
     const json schema = j.is_object() ? j.value("schema", json()) : json();
     return schema.is_string() && schema.get<std::string>().starts_with("pairsum.profile/");
   } catch (const error&) {

@@ -2,11 +2,12 @@
 
 Keys and meaning are those of docs/design.md, section 3.
 """
+import codecs
 import json
 import math
 import pathlib
 import re
-from typing import Any, Callable, Iterable
+from typing import Any, Callable, Iterable, Iterator
 
 import numpy as np
 import pandas as pd
@@ -53,6 +54,10 @@ _SELDOM_IN_2 = {"point.block", "workspace_bytes"}
 _DOTTED = ("vector_units", "self_test")
 
 
+_LONGEST = 16 << 20  #: bytes of a line
+_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+
+
 class ResultsError(Exception):
     """Input that cannot be used; the text is one line for the user."""
 
@@ -61,11 +66,16 @@ def _is_number(value: Any) -> bool:
     return type(value) in (int, float) and math.isfinite(value)
 
 
+def _is_text(value: Any) -> bool:
+    return type(value) is str and (value.isprintable() or not _CONTROLS.search(value))
+
+
 _NUMBERS = ("number", "amount", "positive", "count", "from one")
 _HEX = re.compile("[0-9a-f]{16}")
+_CONTROLS = re.compile("[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
 _UTC = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z", re.ASCII)
 _TESTS: dict[str, tuple[Callable[[Any], bool], str]] = {
-    "text": (lambda v: type(v) is str, "a string"),
+    "text": (_is_text, "a string without control characters"),
     "hex": (lambda v: type(v) is str and _HEX.fullmatch(v) is not None, "16 hex digits"),
     "utc": (lambda v: type(v) is str and _UTC.fullmatch(v) is not None, "a UTC time like 2026-11-22T15:30:00.123Z"),
     "flag": (lambda v: type(v) is bool, "true or false"),
@@ -76,7 +86,7 @@ _TESTS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "from one": (lambda v: type(v) is int and 1 <= v < 2**31, "an integer >= 1"),
     "counts": (lambda v: type(v) is dict and all(type(n) is int and n >= 0 for n in v.values()),
                "an object of integers >= 0"),
-    "texts": (lambda v: type(v) is dict and all(type(t) is str for t in v.values()), "an object of strings"),
+    "texts": (lambda v: type(v) is dict and all(map(_is_text, v.values())), "an object of strings"),
     "times": (lambda v: type(v) is list and all(type(one) is list and all(_is_number(s) and s >= 0 for s in one)
                                                 for one in v), "an array of arrays of numbers >= 0")}
 
@@ -144,22 +154,33 @@ def _no_constant(name: str) -> None:
     raise ValueError(name)
 
 
-def _parsed(path: pathlib.Path) -> list[dict]:
-    """The JSON objects of the lines."""
+def _lines(path: pathlib.Path) -> Iterator[tuple[str, bool, bool]]:
+    """Of every line of a file its text, whether its end is missing, and whether it is the last."""
     try:
         if path.exists() and not path.is_file():
             raise ResultsError(f"{path}: is no regular file, should be a rows file")
-        text = path.read_bytes().decode("utf-8", errors="replace")
+        with path.open("rb") as file:
+            line, number = file.readline(_LONGEST), 1
+            if not line:
+                raise ResultsError(f"{path}: is empty, should hold rows of {SCHEMAS[0]}")
+            if line[:2] in _UTF_16 or line[:2].count(0) == 1:
+                raise ResultsError(f"{path}: is UTF-16, should be UTF-8")
+            line = line.removeprefix(codecs.BOM_UTF8)
+            while line:
+                if len(line) >= _LONGEST:
+                    raise ResultsError(f"{path}:{number}: the line has more than 16 MB")
+                after = file.readline(_LONGEST)
+                yield line.decode("utf-8", errors="replace").removesuffix("\n"), not line.endswith(b"\n"), not after
+                line, number = after, number + 1
     except OSError as problem:
         raise ResultsError(f"{path}: cannot be read: {problem.strerror}") from None
-    if not text:
-        raise ResultsError(f"{path}: is empty, should hold rows of {SCHEMAS[0]}")
-    lines = text.split("\n")
-    cut = lines.pop() != ""
+
+
+def _parsed(path: pathlib.Path) -> list[dict]:
+    """The JSON objects of the lines."""
     rows: list[dict] = []
     decode = json.JSONDecoder(parse_constant=_no_constant).decode
-    for number, line in enumerate(lines + ([text.rsplit("\n", 1)[-1]] if cut else []), 1):
-        last = number == len(lines) + cut
+    for number, (line, cut, last) in enumerate(_lines(path), 1):
         try:
             row = decode(line)
         except (ValueError, RecursionError):

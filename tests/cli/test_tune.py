@@ -126,7 +126,7 @@ def test_tune_refuses(pairsum, words, says):
 def test_a_profile_that_is_none_is_refused(pairsum, profile):
     whole = profile.read_text()
     data = json.loads(whole)
-    for content, says in [(whole[:100], "no whole JSON (byte 101)"), ("", "no whole JSON"), ("[]", "JSON object"),
+    for content, says in [("[]", "JSON object"),
                           (json.dumps({**data, "schema": "pairsum.profile/9"}), "pairsum.profile/1"),
                           (json.dumps({**data, "words": "backend=naive"}), "a profile lacks threads"),
                           (json.dumps({**data, "words": "backend=naive threads=1 x=2"}), 'key of a profile "x"'),
@@ -134,6 +134,9 @@ def test_a_profile_that_is_none_is_refused(pairsum, profile):
                           (json.dumps({key: data[key] for key in data if key != "case"}), '"case" is missing')]:
         profile.write_text(content)
         assert refused(pairsum("run", "--profile", profile), "p.json", "no profile", says)
+    for content, says in [(whole[:100], "this is no JSON"), ("", "p.json: is empty"), ('{"schema": 1, "schema": 1}', "p.json:1:15: key")]:
+        profile.write_text(content)
+        assert refused(pairsum("run", "--profile", profile), says)
     assert refused(pairsum("run", "--profile", "missing.json"), "missing.json")
     assert refused(pairsum("run", "--profile", ""), "--profile")
     profile.write_text(json.dumps({**data, "words": "backend=nope threads=1"}))

@@ -54,7 +54,9 @@ TEST(wrong_plan, is_refused_by_the_key_that_is_wrong) {
   expect_refused("/study", "", "\"study\"");
   expect_refused("/study", 3, "\"study\"");
   expect_refused("/study", "a/b", "no slash");
+  expect_refused("/study", "a\nb", "\"study\" should be a text without control characters");
   expect_refused("/title", 3, "\"title\"");
+  expect_refused("/title", "\x1b[31m", "\"title\" should be a text without control characters");
   expect_refused("/budget_s", "60", "\"budget_s\"");
   expect_refused("/budget_s", -1, "\"budget_s\"");
   expect_refused("/peaks", 1, "\"peaks\"");
@@ -118,9 +120,9 @@ TEST_F(plan_file, is_refused_by_its_name) {
   std::filesystem::create_directories(folder_ / "folder.json");
   refused((folder_ / "folder.json").string(), "is a folder");
   for (const char* text :
-       {"", "{", "{\"schema\": \"pairsum.plan/1\", \"stu", "\x01\x02", "{}}", "{\"budget_s\": 1e999}"}) {
+       {"{", "{\"schema\": \"pairsum.plan/1\", \"stu", "\x01\x02", "{}}", "{\"study\": 1, \"study\": 2}"}) {
     write_text(folder_ / "wrong.json", text);
-    refused((folder_ / "wrong.json").string(), "wrong.json: is no whole JSON");
+    refused((folder_ / "wrong.json").string(), "wrong.json:1:");
   }
 }
 

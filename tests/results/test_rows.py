@@ -32,7 +32,9 @@ def changed(kind, /, **change):
 
 WRONG = [
     (changed("sample", round=0), '4: key "round" should be an integer >= 1, is the number 0'),
-    (changed("sample", part=7), '4: key "part" should be a string, is the number 7'),
+    (changed("sample", part=7), '4: key "part" should be a string without control characters, is the number 7'),
+    (changed("sample", part="a\x1b[31m"), 'key "part" should be a string without control characters, is "a\\u001b[31m"'),
+    (changed("environment", host="\ud800"), 'key "host" should be a string without control characters, is "\\ud800"'),
     (changed("sample", point__dx="x"), '4: key "point.dx" should be a number, is "x"'),
     (changed("sample", point__M=0), '4: key "point.M" should be an integer >= 1 or null, is the number 0'),
     (changed("sample", phases__sum_s=-1), '4: key "phases.sum_s" should be a number >= 0 or null, is the number -1'),
@@ -84,6 +86,27 @@ def test_a_wrong_file_is_refused(tmp_path, text, says):
     with pytest.raises(pr.ResultsError, match="^[^\n]*$") as caught:
         pr.load([path])
     assert says in str(caught.value)
+
+
+def test_files_of_other_editors(tmp_path):
+    path = made.write(tmp_path / "rows.jsonl", made.study(made.talk()))
+    text, wanted = path.read_text(), pr.load([path]).points
+    path.write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n").encode())
+    assert pr.load([path]).points.equals(wanted)
+    for encoding in ("utf-16", "utf-16-le", "utf-16-be"):
+        path.write_text(text, encoding)
+        with pytest.raises(pr.ResultsError, match="rows.jsonl: is UTF-16, should be UTF-8$"):
+            pr.load([path])
+
+
+def test_a_line_without_an_end_is_not_read_to_it(tmp_path):
+    for begin in ("", json.dumps(made.environment()) + "\n"):
+        path = tmp_path / "rows.jsonl"
+        path.write_text(begin)
+        with path.open("r+") as file:
+            file.truncate(1 << 31)
+        with pytest.raises(pr.ResultsError, match=f":{1 + len(begin.splitlines())}: the line has more than 16 MB"):
+            pr.load([path])
 
 
 def test_files_that_are_none(tmp_path):

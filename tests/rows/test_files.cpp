@@ -260,6 +260,50 @@ TEST_F(rows_files, a_file_that_grows_is_read_once) {
   EXPECT_CONTAINS(message_of([&] { reader.read_on(); }), ":27: it is no whole JSON value");
 }
 
+TEST_F(rows_files, a_byte_order_mark_and_lines_of_windows_change_nothing) {
+  const rows_file rows = read_rows(write_example());
+  std::string text = "\xEF\xBB\xBF";
+  for (const char c : get(rows.path)) text += c == '\n' ? "\r\n" : std::string(1, c);
+  const rows_file edited = read_rows(put("edited.jsonl", text));
+  EXPECT_EQ(edited.samples, rows.samples);
+  EXPECT_EQ(edited.environments, rows.environments);
+  row_writer(edited.path).write(example::measured());
+  EXPECT_EQ(read_rows(edited.path).samples.size(), 3u);
+}
+
+TEST_F(rows_files, utf_16_is_named) {
+  std::string text = "\xFF\xFE";
+  for (const char c : get(write_example())) text += {c, '\0'};
+  for (const std::string& one : {text, text.substr(2)})
+    EXPECT_EQ(message_of([&] { read_rows(put("wide.jsonl", one)); }),
+              file("wide.jsonl").string() + ": is UTF-16, should be UTF-8");
+}
+
+TEST_F(rows_files, lines_longer_than_a_read_are_whole_rows) {
+  const auto path = write_example();
+  environment_row long_one = example::environment();
+  long_one.flags = std::string(3000000, 'f');
+  for (int k = 0; k < 3; ++k) {
+    row_writer(path).write(long_one);
+    row_writer(path).write(example::measured());
+  }
+  const rows_file rows = read_rows(path);
+  EXPECT_EQ(rows.samples.size(), 5u);
+  EXPECT_EQ(rows.environments.size(), 4u);
+  EXPECT_EQ(rows.environments.back().flags.size(), 3000000u);
+  put("cut.jsonl", get(path).substr(0, get(path).size() - 1));
+  EXPECT_EQ(read_rows(file("cut.jsonl"), cut_line::drop).samples.size(), 4u);
+}
+
+TEST_F(rows_files, what_has_no_end_is_not_read_to_it) {
+  const std::uint64_t before = bytes_of_rows_read();
+  for (const std::string& begin : {std::string(), get(write_example()), std::string("{\"schema\":")}) {
+    std::filesystem::resize_file(put("huge.jsonl", begin), std::uintmax_t{4} << 30);
+    message_of([&] { read_rows(file("huge.jsonl")); });
+  }
+  EXPECT_LT(bytes_of_rows_read() - before, std::uint64_t{64} << 20);
+}
+
 TEST_F(rows_files, files_that_are_no_rows_are_refused_in_one_line) {
   const std::vector<std::string> foreign{"a,b,c\n1,2,3\n",     "{\"a\":1}\n", "{\"a\":1}", "[1,2]\n", "\n",
                                          "{\n  \"a\": 1\n}\n", "{\"a\": [\n", "text"};

@@ -51,6 +51,18 @@ TEST(row, nested_structs_survive_a_round_trip) {
   EXPECT_EQ(json(s.verify).get<verify_row>(), s.verify);
 }
 
+TEST(row, texts_have_no_control_characters) {
+  for (const char* const text : {"a\nb", "\x1b[31m", "a\x7f", "\xC2\x9B"}) {
+    sample s = example::failed();
+    s.error = text;
+    EXPECT_EQ(message_of([&] { round_trip(s); }),
+              "key \"error\" should be a string without control characters, is a string");
+  }
+  environment_row e = example::environment();
+  e.host = "h\xC3\xA4mmer \xC2\xA0";
+  EXPECT_EQ(round_trip(e), e);
+}
+
 TEST(row, numbers_survive_bit_for_bit) {
   sample s = example::measured();
   s.phases->sum_s = 0.1 + 0.2;
