@@ -2,13 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/names.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/environment/environment.hpp"
 #include "harness/plugin/plugins.hpp"
+#include "harness/terminal/program.hpp"
 
 namespace {
 
@@ -47,6 +47,16 @@ pairsum::error unexpected(const CLI::App& app, const std::string& word) {
       fmt::format("{};{} {} --help lists its options", what, pairsum::hint_for("--" + bare, valid), called(app)));
 }
 
+/// What is wrong with words that CLI11 refuses.
+std::string refusal(const CLI::App& app, const CLI::ParseError& e) {
+  const auto commands = app.get_subcommands();
+  for (const CLI::Option* o : (commands.empty() ? &app : commands.front())->get_options())
+    if (o->get_items_expected_max() == 1 && o->results().size() > 1 && !o->get_positional())
+      return fmt::format("{0} is given {1} times, should be once; a list has commas: {0} {2}", o->get_name(),
+                         o->results().size(), fmt::join(o->results(), ","));
+  return e.what();
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app(about, "pairsum");
   app.footer(examples);
@@ -71,7 +81,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
     if (const auto words = app.remaining(true); !words.empty()) throw unexpected(app, words.front());
-    throw pairsum::error(fmt::format("{} (see {} --help)", e.what(), called(app)));
+    throw pairsum::error(fmt::format("{} (see {} --help)", refusal(app, e), called(app)));
   }
   pairsum::harness::load_named_plugins();
   return chosen();
@@ -80,14 +90,5 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run_program(argc, argv);
-  } catch (const pairsum::error& e) {
-    fmt::print(stderr, "pairsum: {}\n", e.what());
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "pairsum: out of memory; a larger dx or a smaller M needs less\n");
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "pairsum: {}\n", e.what());
-  }
-  return 2;
+  return pairsum::harness::as_program("pairsum", [&] { return run_program(argc, argv); });
 }

@@ -11,6 +11,7 @@
 #include "harness/plan/plan.hpp"
 #include "harness/plan/words.hpp"
 #include "harness/plugin/plugins.hpp"
+#include "harness/terminal/program.hpp"
 
 namespace {
 
@@ -49,10 +50,13 @@ int run(int argc, char** argv) {
   const bench_request r = parse(app, argc, argv, rest);
   std::vector<char*> words{argv[0]};
   for (std::string& w : rest) {
-    if (w == "--help" || w == "-h")
+    if (w == "--help" || w == "-h") {
       fmt::print(
           "pairsum_bench [--case NAME] [--dx M] [--state rest|perturbed] [--M 6,7] [--threads 1,2|all] "
           "[--grid NAMES] [--isa NAMES] [--block auto,slab:4] [--plugin FILE] [--benchmark_filter=REGEX ...]\n");
+      benchmark::PrintDefaultHelp();
+      return 0;
+    }
     words.push_back(w.data());
   }
   int n = static_cast<int>(words.size());
@@ -63,18 +67,13 @@ int run(int argc, char** argv) {
   for (const auto& [name, file] : loaded_plugins()) benchmark::AddCustomContext("plugin " + name, file);
   register_backends(r);
   register_parts();
-  benchmark::RunSpecifiedBenchmarks();
+  const bool any = benchmark::RunSpecifiedBenchmarks() > 0;  // or the library has said what is wrong with the filter
   benchmark::Shutdown();
-  return 0;
+  return any ? 0 : 2;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "pairsum_bench: {}\n", e.what());
-    return 2;
-  }
+  return as_program("pairsum_bench", [&] { return run(argc, argv); });
 }

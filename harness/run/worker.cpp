@@ -24,6 +24,7 @@
 #include "harness/run/ranking.hpp"
 #include "harness/run/world.hpp"
 #include "harness/self_test/self_test.hpp"
+#include "harness/terminal/program.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -229,7 +230,7 @@ class errand_run {
     sample s = blank(p, slot, repetition);
     if (!r.error.empty()) {  // a backend that is wrong gets no time
       failed_ = failed_ || !must_fail(order_.plan, p.backend);
-      s.error = r.error;
+      s.error = one_line(r.error);
       writer_->write(s);
       return;
     }
@@ -259,7 +260,7 @@ class errand_run {
   }
   void note(const std::string& line) {
     progress_.clear();
-    fmt::print("{}\n", line);
+    fmt::print("{}\n", one_line(line));
     std::fflush(stdout);
   }
 

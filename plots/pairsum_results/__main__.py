@@ -1,44 +1,64 @@
 """The programs: `python3 -m pairsum_results report FILE...`, `compare A B` and `history`."""
 import argparse
 import json
+import os
 import pathlib
 import signal
 import sys
+import warnings
 
 from .rows import PHASES, ResultsError
-from .words import hint, unknown
+from .words import hint, one_line, unknown
 
 _HISTORY_PHASES = [name.removesuffix("_s") for name in (*PHASES, "evaluation_s")]
 
 
+def _say(text: str) -> None:
+    """Prints to stdout at once. Raises ResultsError if that is lost, as on a full disk."""
+    try:
+        print(text, flush=True)
+    except OSError as problem:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # which takes what is left at the end
+        raise ResultsError(f"its output is lost: {problem.strerror}") from None
+
+
 class _Parser(argparse.ArgumentParser):
+    def print_help(self, file=None):
+        _say(self.format_help().rstrip("\n"))
+
     def error(self, message: str):
         """One line, as the rest of pairsum has it."""
-        self.exit(2, f"pairsum: {message} (see {self.prog} --help)\n")
+        self.exit(2, f"pairsum: {one_line(message)} (see {self.prog} --help)\n")
 
     def refuse(self, word: str):
         """Says of a word that nothing takes which option was meant."""
         name = word.partition("=")[0]
         near = hint(name, [known for action in self._actions for known in action.option_strings])
         what = f"unknown option {name} of {self.prog}" if word.startswith("-") else f'{self.prog} does not take "{word}"'
-        self.exit(2, f"pairsum: {what};{near} {self.prog} --help lists its options\n")
+        self.exit(2, f"pairsum: {one_line(what)};{near} {self.prog} --help lists its options\n")
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run a program; return its exit code: 0, 1 if the history found something slower, 2 with one line on stderr."""
+    """Run a program; return its exit code: 0, 1 if the history found something slower, 2 with one line on stderr (also
+    if its output is lost), 130 after SIGINT."""
     parser = _Parser(prog="pairsum")
     programs = parser.add_subparsers(required=True, metavar="PROGRAM", dest="program")
     _report_program(programs)
     _compare_program(programs)
     _history_program(programs)
-    options, rest = parser.parse_known_args(arguments)
-    if rest:
-        programs.choices[options.program].refuse(rest[0])
     try:
+        options, rest = parser.parse_known_args(arguments)
+        if rest:
+            programs.choices[options.program].refuse(rest[0])
         return options.run(options) or 0
     except ResultsError as problem:
-        print(f"pairsum: {' '.join(str(problem).split())}", file=sys.stderr)
+        print(f"pairsum: {one_line(str(problem))}", file=sys.stderr)
         return 2
+    except OSError as problem:
+        print(f"pairsum: {one_line(f'{problem.filename}: {problem.strerror}')}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
 
 
 def _report_program(programs) -> None:
@@ -73,19 +93,19 @@ def _report(options: argparse.Namespace) -> None:
     said = report(load(options.inputs, options.allow_mixed))
     others = [report(load([path], options.allow_mixed)) for path in options.beside]
     tables = summary.write(said, folder)
-    print("\n".join(said_of(said.answer)), flush=True)
+    _say("\n".join(said_of(said.answer)))
     if options.tables:
-        print(f"\n{tables}", end="")
-    print(f"tables:  {folder}/tables.txt, tables.md, csv/, rounds.csv, summary.json")
+        _say("\n" + tables.rstrip("\n"))
+    _say(f"tables:  {folder}/tables.txt, tables.md, csv/, rounds.csv, summary.json")
     if options.tables:
         return
     from . import page, paper
 
     if options.paper:
         paper.write(said, folder / "paper")
-        print(f"paper:   {folder / 'paper'}")
-    print(f"figures: {len(page.write([said, *others], folder))} files, {folder}/*.png")
-    print(f"page:    {folder / 'report.html'}")
+        _say(f"paper:   {folder / 'paper'}")
+    _say(f"figures: {len(page.write([said, *others], folder))} files, {folder}/*.png")
+    _say(f"page:    {folder / 'report.html'}")
 
 
 def _compare_program(programs) -> None:
@@ -111,7 +131,7 @@ def _compare(options: argparse.Namespace) -> None:
     from .sides import compare_sides
 
     found = compare_sides(options.a, options.b, options.inputs, options.phase, options.allow_mixed)
-    print(json.dumps(found.document(), indent=1, allow_nan=False) if options.json else found.text().rstrip("\n"))
+    _say(json.dumps(found.document(), indent=1, allow_nan=False) if options.json else found.text().rstrip("\n"))
 
 
 def _history_program(programs) -> None:
@@ -138,11 +158,12 @@ def _history(options: argparse.Namespace) -> int:
     first = pathlib.Path(options.inputs[0])
     folder = options.out or (first if first.is_dir() else first.parent) / "history"
     found = load_history(options.inputs, f"{options.phase}_s")
-    print(history_report.write(found, folder), end="")
-    print(f"page: {folder / 'history.html'}")
+    _say(history_report.write(found, folder).rstrip("\n"))
+    _say(f"page: {folder / 'history.html'}")
     return 1 if len(found.slower) else 0
 
 
 if __name__ == "__main__":
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # whoever reads the output may stop: report FILE | head
+    warnings.simplefilter("ignore")  # of libraries, about numbers that the rows hold or about these programs
     sys.exit(main())

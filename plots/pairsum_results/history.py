@@ -106,7 +106,7 @@ def _builds(results: Results) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]
     first = seen.groupby("git")["utc"].min().sort_values(kind="stable")
     keys = [*_MACHINE, "flags"]
     builds["machine"] = builds.groupby(keys, dropna=False, sort=False).ngroup()
-    builds["revision"] = builds["git"].map(pd.Series(range(len(first)), first.index)).where(
+    builds["revision"] = builds["git"].map(pd.Series(range(len(first)), first.index, dtype=float)).where(
         builds.index.isin(clean.index), -1).astype(int)
     machines = builds.drop_duplicates("machine").set_index("machine")[keys]
     machines["name"] = names(machines, keys)

@@ -3,7 +3,7 @@ import dataclasses
 import json
 import os
 import pathlib
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 import pandas as pd
@@ -102,12 +102,26 @@ def write(report: Report, folder: pathlib.Path) -> str:
 
 
 def write_file(path: pathlib.Path, content: str | bytes) -> None:
-    """Writes a file that appears whole or not at all. Raises ResultsError with one line."""
+    """Writes a file that appears whole or not at all, and leaves no other, even if the program is killed while it
+    writes. Raises ResultsError with one line."""
     unfinished = path.with_name(f"{path.name}.{os.getpid()}.tmp")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        unfinished.write_bytes(content.encode() if isinstance(content, str) else content)
+        with _without_a_name(unfinished) as file:
+            file.write(content.encode() if isinstance(content, str) else content)
+            file.flush()
+            if isinstance(file.name, int):
+                # The name is absolute; with a folder given, link follows it to the file that it stands for.
+                os.link(f"/proc/self/fd/{file.name}", unfinished, src_dir_fd=file.name)
         os.replace(unfinished, path)
     except OSError as problem:
         unfinished.unlink(missing_ok=True) if unfinished.parent.is_dir() else None
         raise ResultsError(f"cannot write {path}: {problem.strerror}") from None
+
+
+def _without_a_name(path: pathlib.Path) -> BinaryIO:
+    """A file in the folder of `path` that has no name yet, or that one where the file system has no such files."""
+    try:
+        return open(os.open(path.parent, os.O_TMPFILE | os.O_WRONLY, 0o666), "wb")
+    except OSError:
+        return path.open("wb")

@@ -7,6 +7,16 @@ import numpy as np
 import pandas as pd
 
 
+_LONGEST_WORD, _LONGEST_LINE = 300, 3000
+
+
+def one_line(text: str) -> str:
+    """The text for a message: without control characters (`\\n`, `\\x1b` stand for them), long words and the whole cut."""
+    text = " ".join(word[:_LONGEST_WORD] + "[...]" * (len(word) > _LONGEST_WORD) for word in text.split(" "))
+    line = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text[:_LONGEST_LINE])
+    return line + " [...]" * (len(text) > _LONGEST_LINE)
+
+
 def ms(seconds: float) -> str:
     """Seconds as milliseconds with about five digits and never an exponent; "-" without a value."""
     value = seconds * 1e3 if pd.notna(seconds) else np.inf

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "harness/run/progress.hpp"
+#include "harness/terminal/program.hpp"
 #include "harness/terminal/terminal.hpp"
 
 namespace pairsum::harness {
@@ -27,6 +28,31 @@ TEST(terminal, cuts_characters_and_not_bytes) {
 TEST(terminal, colours_are_there_or_not) {
   EXPECT_EQ(coloured(tone::good, "x", false), "x");
   EXPECT_EQ(coloured(tone::good, "x", true), "\x1b[32mx\x1b[0m");
+}
+
+TEST(one_line, shows_what_would_steer_a_terminal) {
+  EXPECT_EQ(one_line("plain text, \xC3\xA4 \xE2\x82\xAC \xF0\x9F\x98\x80"),
+            "plain text, \xC3\xA4 \xE2\x82\xAC \xF0\x9F\x98\x80");
+  EXPECT_EQ(one_line("1\n2\t\x1b[31m\x7f"), "1\\n2\\x09\\x1b[31m\\x7f");
+  EXPECT_EQ(one_line("\xC2\x9B"
+                     "31m"),
+            "\\xc2\\x9b31m")
+      << "CSI as one character";
+  EXPECT_EQ(one_line("\x9B"
+                     "31m \xFF \xC3"),
+            "\\x9b31m \\xff \\xc3")
+      << "no UTF-8";
+  EXPECT_EQ(one_line(std::string("a\0b", 3)), "a\\x00b");
+}
+
+TEST(one_line, cuts_long_words_and_the_whole) {
+  const std::string word = one_line("unknown isa \"" + std::string(1000000, 'a') + "\"; valid: scalar");
+  EXPECT_LT(word.size(), 400u);
+  EXPECT_TRUE(word.ends_with("[...] valid: scalar")) << "what would be right is still there";
+  std::string many;
+  for (int k = 0; k < 100000; ++k) many += "a b ";
+  EXPECT_LT(one_line(many).size(), 3100u);
+  EXPECT_EQ(one_line(std::string(200, 'a')), std::string(200, 'a'));
 }
 
 TEST(progress, never_goes_back_though_estimates_change) {

@@ -1,10 +1,12 @@
 """The figures of a report, each drawn from its tables. To add one: write its panels here and list it in ALL."""
+import ctypes
 import dataclasses
 import gc
 import io
 import multiprocessing
 import pathlib
 import re
+import signal
 import sys
 import textwrap
 from typing import Any, Callable, Iterable
@@ -114,8 +116,14 @@ def on_all_cores(work: Callable[[Any], Any], tasks: Iterable[Any]) -> list[Any]:
     tasks = list(tasks)
     gc.freeze()
     _work = lambda k: work(tasks[k])  # noqa: E731
-    with multiprocessing.get_context("fork").Pool() as pool:
+    with multiprocessing.get_context("fork").Pool(initializer=_end_with_parent) as pool:
         return pool.map(_called, range(len(tasks)), chunksize=1)
+
+
+def _end_with_parent() -> None:
+    """Of a helper: it ends when this program does, however that ends, and leaves Ctrl-C to it."""
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _called(k: int) -> Any:

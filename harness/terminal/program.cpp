@@ -1,0 +1,103 @@
+#include "harness/terminal/program.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <new>
+
+namespace pairsum::harness {
+namespace {
+
+const char* program = "pairsum";
+bool ended = false;  ///< the work has returned or thrown
+
+void open_closed_descriptors() {
+  for (int descriptor = 0; descriptor <= 2; ++descriptor)
+    if (::fcntl(descriptor, F_GETFD) < 0 && ::open("/dev/null", O_RDWR) != descriptor) ::_exit(2);
+}
+
+/// Whatever happens to the message: there is nobody else to tell.
+void complain(std::string_view what) {
+  const std::string line = fmt::format("{}: {}\n", program, one_line(what));
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+void on_exit_call(int code, void*) {
+  if (ended) return;
+  complain(fmt::format("a library ended it with code {} before its work was done", code));
+  ::_exit(2);
+}
+
+bool is_lost(std::FILE* stream) { return std::fflush(stream) != 0 || std::ferror(stream) != 0; }
+
+int carried_out(const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    complain("out of memory; a larger dx or a smaller M needs less");
+  } catch (const std::exception& e) {
+    if (std::ferror(stdout) == 0) complain(e.what());
+  }
+  return 2;
+}
+
+/// How many bytes the UTF-8 character at the beginning has; 0 if there is none that can be shown.
+std::size_t shown_bytes(std::string_view text) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7F ? 1 : 0;
+  const std::size_t size = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
+  if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < size) return 0;
+  for (std::size_t k = 1; k < size; ++k)
+    if ((byte(k) & 0xC0U) != 0x80U) return 0;
+  return byte(0) == 0xC2 && byte(1) < 0xA0 ? 0 : size;  // U+0080 to U+009F steer terminals, too
+}
+
+}  // namespace
+
+int as_program(const char* name, const std::function<int()>& work) {
+  open_closed_descriptors();
+  std::signal(SIGPIPE, SIG_DFL);
+  std::signal(SIGXFSZ, SIG_IGN);
+  ::setenv("HWLOC_HIDE_ERRORS", "2", 0);  // what hwloc cannot find is null in the rows
+  program = name;
+  ::on_exit(on_exit_call, nullptr);
+  const int code = carried_out(work);
+  ended = true;
+  errno = 0;
+  const bool lost = is_lost(stdout);
+  if (lost) complain(fmt::format("its output is lost: {}", errno != 0 ? std::strerror(errno) : "it cannot be written"));
+  return lost || is_lost(stderr) ? 2 : code;
+}
+
+std::string one_line(std::string_view text) {
+  constexpr std::size_t longest_word = 300, longest = 3000;
+  std::string line;
+  for (std::size_t word = 0; !text.empty();) {
+    if (line.size() > longest) return line + " [...]";
+    const std::size_t bytes = std::max<std::size_t>(1, shown_bytes(text));
+    word = text.front() == ' ' ? 0 : word + 1;
+    if (word == longest_word) line += "[...]";
+    if (word >= longest_word) {
+      text.remove_prefix(bytes);
+      continue;
+    }
+    if (shown_bytes(text) > 0)
+      line += text.substr(0, bytes);
+    else if (text.front() == '\n')
+      line += "\\n";
+    else
+      line += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
+    text.remove_prefix(bytes);
+  }
+  return line;
+}
+
+}  // namespace pairsum::harness
