@@ -7,6 +7,7 @@
 #include <pairsum/core/error.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/run/interrupt.hpp"
+#include "harness/run/launch.hpp"
 #include "harness/run/worker.hpp"
 
 namespace pairsum::harness {
@@ -29,7 +30,9 @@ int work(int descriptor) {
   } catch (const nlohmann::json::exception&) {
     throw error("worker takes the descriptor of an order from the program that conducts a study; use pairsum run");
   }
-  return carry_out(o, registry_of(o.plan));
+  const int code = carry_out(o, registry_of(o.plan));
+  say_done(descriptor, code);
+  return code;
 }
 
 }  // namespace

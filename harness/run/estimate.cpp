@@ -19,7 +19,7 @@ double particles_of(const run_request& r, double dx) {
   const double coarse = std::max(dx, 0.04);
   const double n =
       static_cast<double>(make_case(r.case_name, {r.dim, coarse, r.H, r.states.front(), r.seed}).particles.size());
-  return n * std::pow(coarse / dx, r.dim);
+  return std::min(n * std::pow(coarse / dx, r.dim), 0x1p32);  // more than that is refused
 }
 
 }  // namespace

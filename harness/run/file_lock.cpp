@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <pairsum/core/error.hpp>
@@ -21,6 +22,18 @@ void file_lock::take() {
   ::close(file_);
   file_ = -1;
   throw error(path_.string() + " is being written by another pairsum run; wait for it, or name another file");
+}
+
+void file_lock::must_be_in_place(std::size_t least) const {
+  if (file_ < 0) return;
+  struct stat locked {
+  }, named{};
+  if (::fstat(file_, &locked) != 0 || ::stat(path_.c_str(), &named) != 0 || locked.st_dev != named.st_dev ||
+      locked.st_ino != named.st_ino)
+    throw error(path_.string() +
+                " was deleted, moved or replaced while rows were written to it; start the study again");
+  if (static_cast<std::size_t>(named.st_size) < least)
+    throw error(path_.string() + " was cut while rows were written to it; start the study again");
 }
 
 }  // namespace pairsum::harness

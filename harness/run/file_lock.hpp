@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
 
 namespace pairsum::harness {
@@ -16,6 +17,9 @@ class file_lock {
 
   /// Takes the lock if it is not held yet.
   void take();
+  /// Throws pairsum::error if the file that was locked is no longer there under its name, or was cut to less than
+  /// `least` bytes: rows would go to where nobody finds them.
+  void must_be_in_place(std::size_t least) const;
 
  private:
   std::filesystem::path path_;

@@ -10,9 +10,12 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
 
 #include <pairsum/core/error.hpp>
 #include "harness/measure/cpu_time.hpp"
@@ -23,13 +26,23 @@ namespace pairsum::harness {
 namespace {
 
 /// A file without a name that holds the order.
-int order_file(const order& o) {
-  const std::string text = order_json(o).dump();
+int order_file(const std::string& text) {
   const int file = ::memfd_create("pairsum-order", MFD_CLOEXEC);
   if (file < 0 || ::write(file, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
     throw error(fmt::format("cannot hand an order to a process: {}", std::strerror(errno)));
   ::lseek(file, 0, SEEK_SET);
   return file;
+}
+
+/// Behind the order: the code with which its work was done, as text.
+constexpr std::string_view mark = "\ndone ";
+
+/// The code with which the work of an order of `size` bytes was done.
+std::optional<int> code_when_done(int file, std::size_t size) {
+  char text[32]{};
+  const ssize_t n = ::pread(file, text, sizeof text - 1, static_cast<off_t>(size));
+  if (n <= 0 || !std::string_view(text).starts_with(mark)) return std::nullopt;
+  return std::atoi(text + mark.size());
 }
 
 /// SIGINT and SIGTERM wait while this lives, so that none is lost between fork and exec.
@@ -110,7 +123,8 @@ launcher in_a_process(const std::filesystem::path& program) {
   if (::access(program.c_str(), X_OK) != 0 || std::filesystem::is_directory(program))
     throw error(fmt::format("{} is no program that can be run", program.string()));
   return [name = program.string()](const order& o) {
-    const int file = order_file(o);
+    const std::string text = order_json(o).dump();
+    const int file = order_file(text);
     const std::string descriptor = std::to_string(file);
     const pid_t parent = ::getpid();
     pid_t child = -1;
@@ -123,12 +137,25 @@ launcher in_a_process(const std::filesystem::path& program) {
       }
     }
     const int why = errno;
+    if (child < 0) {
+      ::close(file);
+      throw error(fmt::format("cannot start a process: {}", std::strerror(why)));
+    }
+    departure end = wait_for(child);
+    const std::optional<int> code = code_when_done(file, text.size());
     ::close(file);
-    if (child < 0) throw error(fmt::format("cannot start a process: {}", std::strerror(why)));
-    const departure end = wait_for(child);
+    end.done = code.has_value();
+    if (code && end.signal == 0) end.code = *code;
     if (end.code == cannot_run) throw error(fmt::format("{} is no program that can be run", name));
     return end;
   };
+}
+
+void say_done(int order_descriptor, int code) {
+  const std::string text = std::string(mark) + std::to_string(code);
+  const off_t end = ::lseek(order_descriptor, 0, SEEK_END);
+  if (end < 0 || ::pwrite(order_descriptor, text.data(), text.size(), end) != static_cast<ssize_t>(text.size()))
+    throw error(fmt::format("cannot say that the work is done: {}", std::strerror(errno)));
 }
 
 launcher in_this_process(const registry& all) {
@@ -137,6 +164,7 @@ launcher in_this_process(const registry& all) {
     departure end;
     end.code = carry_out(o, all);
     end.cpu_s = own_time() - before;
+    end.done = true;
     return end;
   };
 }

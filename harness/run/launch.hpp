@@ -15,6 +15,10 @@ using launcher = std::function<departure(const order&)>;
 /// run.
 launcher in_a_process(const std::filesystem::path& program);
 
+/// Says to the process that handed the order over, through its descriptor, that the work came to its end with this
+/// code. No library that ends the process can say it.
+void say_done(int order_descriptor, int code);
+
 /// In this process, with backends of the caller's choice.
 launcher in_this_process(const registry& all);
 

@@ -9,7 +9,7 @@
 namespace pairsum::harness {
 namespace {
 
-constexpr const char* order_schema = "pairsum.order/2";
+constexpr const char* order_schema = "pairsum.order/3";
 constexpr const char* errands[] = {"peaks", "verify", "measure"};
 
 }  // namespace

@@ -35,9 +35,10 @@ order parse_order(const nlohmann::json& json);
 
 /// How a process that carries out an order ends.
 struct departure {
-  int code = 0;      ///< exit code: 0 done, 1 done but a point failed its verification, 2 bad input, 130 interrupted
-  int signal = 0;    ///< that ended it, if not 0
-  double cpu_s = 0;  ///< processor time it used
+  int code = 0;       ///< exit code: 0 done, 1 done but a point failed its verification, 2 bad input, 130 interrupted
+  int signal = 0;     ///< that ended it, if not 0
+  double cpu_s = 0;   ///< processor time it used
+  bool done = false;  ///< it came to the end of its work and said so; an exit code alone may be a library's
 };
 
 }  // namespace pairsum::harness

@@ -1,6 +1,9 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 
 #include <pairsum/core/error.hpp>
 #include "harness/environment/environment.hpp"
@@ -11,6 +14,23 @@
 #include "harness/run/study.hpp"
 
 namespace pairsum::harness {
+namespace {
+
+/// A file that nobody else has made: two runs may begin in the same second. Where none can be made, its name, and
+/// whoever writes to it says why.
+std::filesystem::path new_file(const std::filesystem::path& folder, const std::string& stem) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  for (int k = 1;; ++k) {
+    const auto path = folder / (k == 1 ? stem + ".jsonl" : fmt::format("{}-{}.jsonl", stem, k));
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    if (file < 0 && errno == EEXIST) continue;
+    if (file >= 0) ::close(file);
+    return path;
+  }
+}
+
+}  // namespace
 
 std::filesystem::path rows_path(const std::filesystem::path& results, const study_plan& plan, bool fresh,
                                 const std::string& binding) {
@@ -32,9 +52,7 @@ std::filesystem::path rows_path(const std::filesystem::path& results, const stud
     }
   if (!newest.empty()) return newest;
   const std::string stem = fmt::format("{}-{}-{}", here.host, utc_stamp(), here.git + (here.dirty ? "-dirty" : ""));
-  std::filesystem::path made = folder / (stem + ".jsonl");
-  for (int k = 2; std::filesystem::exists(made, code); ++k) made = folder / fmt::format("{}-{}.jsonl", stem, k);
-  return made;  // two runs may begin in the same second
+  return new_file(folder, stem);
 }
 
 }  // namespace pairsum::harness

@@ -48,6 +48,8 @@ class rows_so_far {
 
   const rows_file& rows() const { return reader_.rows(); }
   const known_names& known() const { return reader_.known(); }
+  /// How many bytes of the file are read.
+  std::size_t bytes() const { return reader_.bytes(); }
   /// All finished rounds of the plan, those before the last end included, and their samples.
   const std::vector<round_row>& all_rounds() const { return all_rounds_; }
   std::vector<sample> samples() const;

@@ -107,7 +107,7 @@ class conductor {
   bool went_well(const departure& end) {
     if (interrupted() || end.code == 130) {
       code_ = 130;
-    } else if (end.signal == 0 && end.code > 1) {
+    } else if (end.signal == 0 && (end.code > 1 || !end.done)) {
       if (end.code != 2)
         say(fmt::format("a process of the study ended with code {}, before its work was done", end.code));
       code_ = 2;  // with code 2 it has said why

@@ -36,7 +36,18 @@ study_file::study_file(const std::filesystem::path& path, const study_plan& plan
   lock_.take();
 }
 
+void study_file::read_on() {
+  must_be_in_place();
+  so_far_.read_on();
+}
+
+std::size_t study_file::mend() {
+  must_be_in_place();
+  return so_far_.drop_cut_line();
+}
+
 void study_file::open() {
+  must_be_in_place();
   if (writer_) return;
   writer_.emplace(path_, so_far_.known());
   if (!writer_->knows(environment_.environment)) writer_->write(environment_);

@@ -19,10 +19,11 @@ class study_file {
   study_file(const std::filesystem::path& path, const study_plan& plan, const environment_row& environment);
 
   const rows_so_far& so_far() const { return so_far_; }
-  /// Takes in what others have appended.
-  void read_on() { so_far_.read_on(); }
+  /// Takes in what others have appended. Like what follows, throws pairsum::error if the file is no longer in its
+  /// place.
+  void read_on();
   /// The same after one of them was killed: takes a cut last line away. Returns its number of bytes.
-  std::size_t mend() { return so_far_.drop_cut_line(); }
+  std::size_t mend();
 
   /// Writes the environment's row if it is not there. Nothing is written before, so that bad input leaves no file.
   void open();
@@ -32,6 +33,8 @@ class study_file {
   void void_rounds(const std::string& why, std::optional<int> only = {});
 
  private:
+  void must_be_in_place() const { lock_.must_be_in_place(so_far_.bytes()); }
+
   std::filesystem::path path_;
   std::string study_;
   environment_row environment_;

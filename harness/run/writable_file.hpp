@@ -7,12 +7,12 @@
 namespace pairsum::harness {
 
 /// Makes the rows file, so that it can be locked and whatever keeps it from being written is told before anything is
-/// measured; takes it away again if it is new and no row came. (A study that is killed before its first row leaves an
-/// empty file.)
+/// measured; takes it away again if it was new, or empty, and no row came. (A study that is killed before its first row
+/// leaves an empty file.)
 class writable_file {
  public:
   explicit writable_file(std::filesystem::path path)
-      : path_(std::move(path)), is_new_(!exists(path_)), folder_is_new_(is_new_ && !exists(folder())) {
+      : path_(std::move(path)), is_new_(is_empty(path_)), folder_is_new_(is_new_ && !exists(folder())) {
     row_writer make_it(path_, {});  // whoever asks has read what is there
   }
   ~writable_file() {
@@ -25,6 +25,10 @@ class writable_file {
   writable_file& operator=(const writable_file&) = delete;
 
  private:
+  static bool is_empty(const std::filesystem::path& p) {
+    std::error_code code;
+    return !std::filesystem::exists(p, code) || std::filesystem::file_size(p, code) == 0;
+  }
   static bool exists(const std::filesystem::path& p) {
     std::error_code code;
     return std::filesystem::exists(p, code);

@@ -36,6 +36,45 @@ TEST_F(crashes, a_verification_that_was_killed_is_repeated_and_given_up) {
   EXPECT_FALSE(std::filesystem::exists(path_)) << "nothing was measured";
 }
 
+TEST_F(crashes, an_exit_code_is_no_sign_that_the_work_was_done) {
+  EXPECT_EQ(conduct_with(ending({2}, {1, 0, 0})), 2) << "as a library ends a process that it gives up";
+  EXPECT_EQ(voided(), (std::vector<int>{2}));
+  EXPECT_TRUE(read_rows(path_).ends.empty());
+  ASSERT_EQ(conduct_again(), 0);
+  expect_whole();
+  const launcher silent = [sound = in_this_process(registry::instance())](const order& o) {
+    departure end = sound(o);
+    end.done = false;
+    return end;
+  };
+  EXPECT_EQ(conduct_with(silent), 2) << "not even code 0";
+}
+
+TEST_F(crashes, a_file_that_is_no_longer_in_its_place_ends_the_study) {
+  const std::filesystem::path away = folder_ / "away";
+  const std::string gone = "was deleted, moved or replaced", cut = "was cut";
+  const std::vector<std::pair<std::function<void()>, std::string>> faults{
+      {[&] { std::filesystem::remove(path_); }, gone},
+      {[&] { std::filesystem::rename(path_, away); }, gone},
+      {[&] {
+         write_text(away, text_of(path_));
+         std::filesystem::rename(away, path_);
+       },
+       gone},
+      {[&] { std::filesystem::resize_file(path_, 100); }, cut}};
+  for (const auto& [fault, says] : faults) {
+    std::filesystem::remove_all(folder_);
+    int rounds = 0;
+    const auto l = watched([&](const order& o, int) {
+      if (o.what == errand::measure && ++rounds == 2) fault();
+      return departure{};
+    });
+    const std::string said = refusal_of([&] { conduct_with(l); });
+    EXPECT_NE(said.find("rows.jsonl " + says), std::string::npos) << said;
+    EXPECT_EQ(rounds, 2) << "no round is measured whose rows nobody finds";
+  }
+}
+
 TEST_F(crashes, an_interrupt_voids_the_round_and_ends_without_an_end_row) {
   EXPECT_EQ(conduct_with(ending({2}, interrupt)), 130);
   EXPECT_EQ(voided(), (std::vector<int>{2}));

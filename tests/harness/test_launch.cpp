@@ -48,6 +48,15 @@ TEST_F(launch, says_how_the_process_ended) {
   EXPECT_GT(launched("i=0; while [ $i -lt 30000 ]; do i=$((i+1)); done").cpu_s, 0);
 }
 
+TEST_F(launch, work_is_done_if_the_process_says_so) {
+  for (const char* lines : {"exit 0", "exit 1", "printf 'done 0'; exit 0"}) EXPECT_FALSE(launched(lines).done) << lines;
+  const std::string say = "printf '\\ndone 1' >> /proc/self/fd/$2; ";
+  const departure end = launched(say + "exit 0");
+  EXPECT_TRUE(end.done);
+  EXPECT_EQ(end.code, 1) << "what it said counts";
+  EXPECT_EQ(launched(say + "kill -9 $$").signal, SIGKILL);
+}
+
 TEST_F(launch, hands_the_order_and_the_store_on) {
   const auto seen = folder_ / "seen", stored = folder_ / "stored";
   shared_store store;

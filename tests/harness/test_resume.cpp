@@ -114,6 +114,7 @@ TEST_F(resume, a_cut_file_is_found_under_the_results) {
   EXPECT_EQ(rows_path(folder_, plan_, false, "none") == path_, !describe_environment("test").dirty);
   EXPECT_NE(rows_path(folder_, plan_, false, "cores_first"), path_) << "measured with another binding";
   EXPECT_NE(rows_path(folder_, plan_, true, "none"), path_) << "a fresh one is wanted";
+  EXPECT_NE(rows_path(folder_, plan_, true, "none"), rows_path(folder_, plan_, true, "none")) << "begun at once";
   EXPECT_NE(rows_path(folder_, study_of({small_part("other", 1)}), false, "none"), path_);
   ASSERT_EQ(conduct_again(), 0);
   EXPECT_NE(rows_path(folder_, plan_, false, "none"), path_) << "it came to its end";

@@ -90,7 +90,7 @@ TEST_F(rounds, a_build_that_is_cut_voids_the_round_of_both) {
 TEST_F(rounds, a_build_that_measures_nothing_ends_the_study) {
   study_plan plan = study_of({small_part("a", 2)});
   plan.builds = 2;
-  const launcher idle = [](const order&) { return departure{}; };
+  const launcher idle = [](const order&) { return departure{.done = true}; };
   EXPECT_EQ(conduct_here(plan, path_, registry::instance(), {in_this_process(registry::instance()), idle}), 2);
   const rows_file rows = read_rows(path_);
   EXPECT_TRUE(rows.rounds.empty());
@@ -131,7 +131,7 @@ class peaks : public study_test {
   }
 
   /// Pretends to measure the peaks of these numbers of threads, and ends so.
-  launcher pretend(std::vector<int> threads, departure end = {}) {
+  launcher pretend(std::vector<int> threads, departure end = {.done = true}) {
     return [this, threads, end](const order& o) {
       if (o.what != errand::peaks) return in_this_process(registry::instance())(o);
       ++asked_;
