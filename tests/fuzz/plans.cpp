@@ -12,6 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const nlohmann::json again = harness::plan_json(plan);
     if (harness::plan_json(harness::parse_plan(again, cores)) != again) fuzz::fault("the plan reads back as another");
     harness::check_plan(plan);
+    for (const harness::part_plan& part : plan.parts)
+      if (harness::expand(part.request).empty()) fuzz::fault("a plan that can be measured has no points");
   });
   return 0;
 }

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Builds with the preset asan and runs tests of the library, of rows and of statistics: run_asan.sh SOURCE BUILD
+# Builds with the preset asan and runs tests of the library, of rows and of statistics, then the fuzzers of the readers of files, 20 s each:
+# run_asan.sh SOURCE BUILD
 # clang compiles sanitized templates in half the time of g++. Left out are tests that only repeat these on more particles, which take hours
 # here (the brute force of a verification is slow), and the program, which takes long to compile. It can be
 # built and tried by hand: cmake --build --preset asan --target pairsum. Not reached besides: interactions of one's own, and arithmetic
@@ -17,7 +18,7 @@ cmake --preset asan -S "$source" -B "$build" >"$build/configure.log" 2>&1 || {
   cat "$build/configure.log"
   exit 1
 }
-cmake --build "$build" --parallel 2 --target test_kernels test_rows \
+cmake --build "$build" --parallel 2 --target test_kernels test_rows fuzz_rows fuzz_plans fuzz_profiles fuzz_planted \
   >"$build/build.log" 2>&1 || {
   grep -E 'error|FAILED' "$build/build.log" || cat "$build/build.log"
   exit 1
@@ -53,3 +54,4 @@ export ASAN_OPTIONS=detect_stack_use_after_return=1 UBSAN_OPTIONS=print_stacktra
 # As the preset has them for ctest: few random cases, the same each time; threads that wait leave their core to others.
 export RC_PARAMS="seed=2009 max_success=20" OMP_WAIT_POLICY=passive
 for program in test_rows test_kernels; do run "$program"; done
+sh "$source/tests/fuzz/run_fuzzers.sh" "$build/bin" "$source/tests/fuzz/corpus" 20 "$build/fuzz"
