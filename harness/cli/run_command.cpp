@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -134,8 +135,8 @@ std::string words_of(const CLI::App& command) {
 int start(const run_options& o, const given_options& given) {
   study_plan plan = plan_of(o, given);
   narrow(plan, o.only, usable_cores());
-  if (given.at("budget") && !(o.budget_s >= 0))
-    throw error(fmt::format("budget must be at least 0, is {}", o.budget_s));
+  if (given.at("budget") && !(o.budget_s >= 0 && std::isfinite(o.budget_s)))
+    throw error(fmt::format("budget must be at least 0 and finite, is {}", o.budget_s));
   if (given.at("budget")) plan.budget_s = o.budget_s;
   for (part_plan& p : plan.parts) {
     if (given.at("half-width")) p.half_width = o.half_width;
@@ -144,7 +145,8 @@ int start(const run_options& o, const given_options& given) {
       p.least_rounds = p.half_width > 0 ? std::min(o.rounds, rounds_of_interval) : o.rounds;
     }
     if (p.least_rounds < 1) throw error(fmt::format("rounds must be at least 1, is {}", p.least_rounds));
-    if (!(p.half_width >= 0)) throw error(fmt::format("half-width must be at least 0, is {}", p.half_width));
+    if (!(p.half_width >= 0 && std::isfinite(p.half_width)))
+      throw error(fmt::format("half-width must be at least 0 and finite, is {}", p.half_width));
   }
   if (o.show_plan) {
     fmt::print("{}\n", plan_json(plan).dump(2));
@@ -169,7 +171,7 @@ int start(const run_options& o, const given_options& given) {
   study_options options;
   options.binding = o.binding;
   options.out = o.out.empty() ? rows_path(o.results, plan, o.fresh, o.binding) : std::filesystem::path(o.out);
-  if (o.fresh && std::filesystem::exists(options.out))
+  if (o.fresh && !o.out.empty() && std::filesystem::exists(options.out))
     throw error(fmt::format("--fresh makes a new file, but {} is there", options.out.string()));
   options.builds.push_back(in_a_process(this_program()));
   for (const std::string& program : o.programs) options.builds.push_back(in_a_process(program));

@@ -25,7 +25,7 @@ struct verify_options {
   run_request request;
   std::string case_name, dx, state = "perturbed", dim = "all", precision = "all", interaction = "all",
                              smoothing = "all", backend = "all", grid = "all", isa = "scalar,best", block = "auto",
-                             M = "2,3,6,7", threads = "1,2,3,7";
+                             M = "2,3,6,7", threads = "1,2,3,7", seed = "1";
   bool each = false, all_M = true, json = false;
 };
 
@@ -73,6 +73,7 @@ int verify(const verify_options& o) {
   const registry& r = registry::instance();
   run_request q = o.request;
   if (!o.dx.empty()) q.dx = parse_numbers("--dx", o.dx);
+  q.seed = parse_seed("--seed", o.seed);
   q.states = parse_words("--state", o.state);
   q.M = parse_counts("--M", o.M, 0);
   q.threads = parse_counts("--threads", o.threads, usable_cores());
@@ -143,7 +144,7 @@ void add_verify_command(CLI::App& app, action& chosen) {
   command->add_option("--precision", o->precision, "working precisions, or all that are built")->capture_default_str();
   command->add_option("--smoothing", o->smoothing, "smoothing kernels, or all that are built")->capture_default_str();
   command->add_option("--dim", o->dim, "dimensions, or all that are built")->capture_default_str();
-  command->add_option("--seed", o->request.seed, "of the perturbation and of random places")->capture_default_str();
+  command->add_option("--seed", o->seed, "of the perturbation and of random places")->capture_default_str();
   command->add_flag("--each", o->each, "a line per sum, not per formula");
   command->add_flag("--json", o->json, "the sums as one JSON document on stdout, the lines on stderr");
   add_plugin_option(*command);

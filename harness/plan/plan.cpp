@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include <pairsum/cases/case.hpp>
 #include <pairsum/core/granularity.hpp>
@@ -16,6 +17,7 @@
 #include <pairsum/sum/grids.hpp>
 #include <pairsum/sum/registry.hpp>
 #include "harness/plan/variants.hpp"
+#include "harness/rows/fields.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -64,7 +66,8 @@ void check_request(const run_request& r, const registry& all) {
   for (const auto& g : r.granularities)
     if (g != default_granularity)
       for (const auto& b : r.backends) parse_granularity(g, all.find_backend(b).traits.threads);
-  if (r.study.empty() || r.study.find_first_of("/\\ \t\n") != std::string::npos || r.study.front() == '.')
+  if (r.study.empty() || r.study.find_first_of("/\\ ") != std::string::npos || r.study.front() == '.' ||
+      has_controls(r.study))
     throw error(
         fmt::format("a study's name is a folder's name: no slash, no blank, no leading dot, is \"{}\"", r.study));
 }
@@ -78,7 +81,9 @@ std::string granularity_of(const std::string& word, const backend_traits& b) {
 
 /// The points of one world, whose words `p` holds.
 world_plan points_of_world(point p, const run_request& r, const registry& all) {
+  constexpr std::size_t most = 20000;
   world_plan points;
+  std::set<std::string> there;
   const std::vector<backend_way> ways = ways_of(r, p, all);
   for (const std::string& integrator : r.integrators)
     for (const std::string& order : r.orders)
@@ -96,7 +101,12 @@ world_plan points_of_world(point p, const run_request& r, const registry& all) {
               p.block = block;
               p.threads = traits.threads == runtime::serial ? 1 : threads;
               p.granularity = granularity_of(granularity, traits);
-              if (std::ranges::find(points, p) == points.end()) points.push_back(p);
+              const std::string words = fmt::format("{} {} {} {} {} {} {} {} {}", integrator, order, grid.name, grid.M,
+                                                    backend, isa, block, p.threads, p.granularity);
+              if (there.insert(words).second) points.push_back(p);
+              if (points.size() > most)
+                throw error(fmt::format("the lists make more than {} points of {}; shorter ones make fewer", most,
+                                        p.case_name));
             }
   return points;
 }

@@ -28,12 +28,17 @@ void add_once(std::vector<int>& values, int v) {
 }  // namespace
 
 std::vector<std::string> parse_words(const std::string& option, const std::string& text) {
+  constexpr std::size_t most_words = 1000, longest = 200;
+  if (const auto commas = static_cast<std::size_t>(std::ranges::count(text, ',')); commas >= most_words)
+    throw error(fmt::format("{} has {} words, at most {} are taken", option, commas + 1, most_words));
   std::vector<std::string> words;
   std::size_t begin = 0;
   while (true) {
     const std::size_t comma = text.find(',', begin);
     const std::string word = text.substr(begin, comma == text.npos ? text.npos : comma - begin);
     if (word.empty()) throw error(fmt::format("{} has an empty word in \"{}\"", option, text));
+    if (word.size() > longest)
+      throw error(fmt::format("{} has a word of {} characters, at most {} are taken", option, word.size(), longest));
     if (std::ranges::find(words, word) == words.end()) words.push_back(word);
     if (comma == text.npos) return words;
     begin = comma + 1;

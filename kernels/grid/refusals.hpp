@@ -39,10 +39,15 @@ template <int D, class R>
 ivec<D> check_periodic(const box<D, R>& omega, R H) {
   if (!omega.periodic) return {};
   const ivec<D> n = torus_cells(omega, H, 2);
-  if (std::ranges::find(n, 0) != n.end())
-    throw error("the periodic box of " + edges_text(omega, H) +
-                " support radii is too small: 4 cells must fit along each axis, none narrower than the support radius");
-  return n;
+  if (std::ranges::find(n, 0) == n.end()) return n;
+  R quarter = H, fits = H;
+  for (int d = 0; d < D; ++d) quarter = std::min(quarter, omega.edge(d) / 4);
+  for (R less = std::numeric_limits<R>::epsilon(); std::ranges::count(torus_cells(omega, fits, 2), 0) > 0; less *= 2)
+    fits = quarter * (1 - less);
+  throw error("the periodic box of " + edges_text(omega, H) +
+              " support radii is too small: 4 cells must fit along each " +
+              "axis, each as wide as the support radius and what rounding takes; one of " +
+              number_text(static_cast<double>(fits)) + " m fits");
 }
 
 }  // namespace pairsum

@@ -22,6 +22,12 @@ BAD_RUNS = [
     (["--dx", "inf"], ["dx must be a positive"]),
     (["--dx", "0,012"], ["--dx takes numbers like 0.02,0.03 (decimals after a point), not \"012\""]),
     (["--dx", "0.5"], ["dam_break needs dx"]),
+    (["--dx", "1e-300"], ["dx = 1e-300", "more than 2^32 particles"]),
+    (["--dx", "1e-300", "--case", "lattice"], ["dx = 1e-300", "more than 2^32 particles"]),
+    (["--dx", ",".join(map(str, range(1, 20_001)))], ["--dx", "20000 words", "at most 1000"]),
+    (["--M", "3", "--threads", "1..4096", "--backend", "all"], ["more than 20000 points"]),
+    (["--backend", "naive", "--backend", "symmetric"], ["--backend is given 2 times", "--backend naive,symmetric"]),
+    (["--steps", "2", "--steps", "3"], ["--steps is given 2 times"]),
     (["--H", "nan"], ["H must be a positive"]),
     (["--H", "-0.1"], ["H must be a positive"]),
     (["--dt", "0"], ["dt must be a positive"]),
@@ -38,7 +44,12 @@ BAD_RUNS = [
     (["--rounds", "0"], ["rounds must be at least 1"]),
     (["--repetitions", "0"], ["repetitions must be at least 1"]),
     (["--half-width", "-1"], ["half-width must be at least 0"]),
+    (["--half-width", "inf"], ["half-width must be at least 0 and finite"]),
     (["--budget", "-1"], ["budget must be at least 0"]),
+    (["--budget", "1e400"], ["budget must be at least 0 and finite"]),
+    (["--budget", "nan"], ["budget must be at least 0 and finite"]),
+    (["--seed", "-1"], ["--seed", "whole number from 0", '"-1"']),
+    (["--seed", "18446744073709551616"], ["--seed", "whole number from 0"]),
     (["--binding", "nope"], ["nope", "cores_first"]),
     (["--granularity", "nope"], ["nope"]),
     (["--grid", "nope"], ["nope", "hashed_grid"]),
@@ -56,7 +67,7 @@ BAD_RUNS = [
 ]
 
 
-@pytest.mark.parametrize("words, says", BAD_RUNS, ids=[" ".join(w) for w, _ in BAD_RUNS])
+@pytest.mark.parametrize("words, says", BAD_RUNS, ids=[" ".join(w)[:50] for w, _ in BAD_RUNS])
 def test_run_refuses(pairsum, tmp_path, words, says):
     out = tmp_path / "rows.jsonl"
     done = pairsum("run", *([] if "--out" in words else ["--out", out]), *([] if words[0] in SMALL else SMALL[:2]), *words)
@@ -73,6 +84,8 @@ def test_run_refuses(pairsum, tmp_path, words, says):
     (["--isa", "nope"], ["nope"]),
     (["--block", "nope"], ["slab:N"]),
     (["--interaction", "nope"], ["count"]),
+    (["--seed", "-1"], ["--seed", "whole number from 0"]),
+    (["--dx", "1e-300"], ["more than 2^32 particles"]),
 ])
 def test_verify_refuses(pairsum, words, says):
     assert refused(pairsum("verify", *words), *says)
@@ -142,3 +155,44 @@ def test_bench_refuses(pairsum):
     assert refused(pairsum("--dx", "-1", program="pairsum_bench"), "dx must be")
     assert refused(pairsum("--grid", "nope", program="pairsum_bench"), "hashed_grid")
     assert refused(pairsum("--block", "nope", program="pairsum_bench"), "slab:N")
+
+
+@pytest.mark.parametrize("expression, says", [("no_such_backend", "Failed to match any benchmarks"), ("naive(", "Could not compile benchmark re")])
+def test_bench_refuses_a_filter_that_matches_nothing_or_is_none(pairsum, expression, says):
+    done = pairsum("--dx", "0.1", "--M", "3", "--threads", "1", f"--benchmark_filter={expression}", program="pairsum_bench")
+    assert done.returncode == 2 and says in done.stderr
+
+
+PLAN_TEXT = json.dumps({"schema": "pairsum.plan/1", "study": "s", "parts": [{"name": "a", "dx": 0.08}]}, indent=1)
+
+
+@pytest.mark.parametrize("content", [b"\xef\xbb\xbf" + PLAN_TEXT.encode(), PLAN_TEXT.replace("\n", "\r\n").encode()], ids=["mark", "CR LF"])
+def test_a_plan_from_another_editor_is_taken(pairsum, tmp_path, content):
+    (tmp_path / "plan.json").write_bytes(content)
+    done = pairsum("run", "plan.json", "--show-plan")
+    assert done.returncode == 0 and '"study": "s"' in done.stdout
+
+
+@pytest.mark.parametrize("content, says", [
+    (PLAN_TEXT.encode("utf-16"), ["plan.json: is UTF-16"]),
+    (PLAN_TEXT.encode("utf-16-be"), ["plan.json: is UTF-16"]),
+    (PLAN_TEXT.replace('"study": "s"', '"study": "s",\n "study": "t"').encode(), ['plan.json:4:2: key "study" is there twice']),
+    (PLAN_TEXT.replace("0.08", "1e400").encode(), ["plan.json:7:", "out of range"]),
+    (PLAN_TEXT.replace('"s"', "s").encode(), ["plan.json:3:", "this is no JSON"]),
+    (PLAN_TEXT.replace("0.08", "[" * 80_000 + "]" * 80_000).encode(), ["plan.json:7:", "more than 32 levels"]),
+    (PLAN_TEXT.replace("0.08", json.dumps([0.08] * 2000)).encode(), ['"dx"', "2000 words"]),
+    (b"\0" * 1000, ["plan.json: has NUL bytes"]),
+    (b"", ["plan.json: is empty"]),
+], ids=range(9))
+def test_a_plan_that_cannot_be_read_is_refused_where_it_is_wrong(pairsum, tmp_path, content, says):
+    (tmp_path / "plan.json").write_bytes(content)
+    assert refused(pairsum("run", "plan.json", "--show-plan"), *says)
+
+
+def test_huge_files_are_not_read_to_their_end(pairsum, tmp_path):
+    with open(tmp_path / "huge.json", "w") as file:
+        file.truncate(2 << 30)
+    assert refused(pairsum("run", "huge.json"), "huge.json: has more than 16 MB")
+    (tmp_path / "huge.json").rename(tmp_path / "huge.jsonl")
+    assert refused(pairsum("report", "huge.jsonl"), "huge.jsonl:1:")
+    assert refused(pairsum("run", *SMALL, "--out", "huge.jsonl"), "huge.jsonl:1: this is no rows file")

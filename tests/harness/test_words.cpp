@@ -34,6 +34,14 @@ TEST(words, what_is_no_number_is_named_with_its_option) {
   EXPECT_THROW(parse_counts("--M", "all", 0), error);
 }
 
+TEST(words, more_than_anybody_means_are_refused) {
+  std::string list = "1";
+  for (int k = 2; k <= 100000; ++k) list += "," + std::to_string(k);
+  EXPECT_THROW(parse_numbers("--dx", list), error);
+  EXPECT_EQ(parse_numbers("--dx", list.substr(0, list.find(",1001"))).size(), 1000u);
+  EXPECT_THROW(parse_words("--backend", std::string(201, 'a')), error);
+}
+
 TEST(words, a_list_where_one_number_is_wanted_is_not_cut) {
   run_request r;
   for (const char* key : {"steps", "repetitions", "dim", "H", "dt"}) {

@@ -201,6 +201,20 @@ TEST(periodic_box, what_is_too_small_is_refused) {
   for (const grid_choice& grid : every_grid({2}))
     EXPECT_TRUE(says(refusal(grid), {"the periodic box of 4 x 4", "support radii is too small: 4 cells must fit"}))
         << refusal(grid);
+  // 4 H as they are: no number is 0.1, so that rounding leaves no room for 4 cells; the refusal says which H has it.
+  s.world.omega_low.assign(s.world.omega_low.size(), 0);
+  s.world.omega_high.assign(s.world.omega_low.size(), 0.4);
+  s.world.constants.H = 0.1;
+  for (const grid_choice& grid : every_grid({2})) {
+    s.world.constants.H = 0.1;
+    const std::string said = refusal(grid), before = "what rounding takes; one of ";
+    ASSERT_TRUE(says(said, {"4 x 4", before})) << said;
+    s.world.constants.H = std::stod(said.substr(said.find(before) + before.size()));
+    EXPECT_NEAR(s.world.constants.H, 0.1, 1e-14);
+    EXPECT_EQ(refusal(grid), "") << grid;
+  }
+  s.world.omega_low.assign(s.world.omega_low.size(), -0.5);
+  s.world.omega_high.assign(s.world.omega_low.size(), 0.5);
   s.world.constants.H = 0.06;
   const std::string text = refusal(6);
   EXPECT_TRUE(says(text, {"M = 6", "does not fit the periodic box", "64 cells", "M from 2 to 4 fit"})) << text;
