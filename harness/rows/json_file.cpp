@@ -63,12 +63,12 @@ class reading {
 
  private:
   void check(int depth, json::parse_event_t event, const json& part) {
-    using enum json::parse_event_t;
-    if ((event == object_start || event == array_start) && depth >= deepest)
+    using is = json::parse_event_t;
+    if ((event == is::object_start || event == is::array_start) && depth >= deepest)
       fail("more than " + std::to_string(deepest) + " levels of lists and objects");
-    if (event == object_start) keys_.emplace_back();
-    if (event == object_end) keys_.pop_back();
-    if (event != key || keys_.back().insert(part.get<std::string>()).second) return;
+    if (event == is::object_start) keys_.emplace_back();
+    if (event == is::object_end) keys_.pop_back();
+    if (event != is::key || keys_.back().insert(part.get<std::string>()).second) return;
     do --reached_;
     while (!begins_key());
     fail("key " + part.dump() + " is there twice in its object");
