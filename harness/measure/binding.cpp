@@ -1,6 +1,7 @@
 #include "harness/measure/binding.hpp"
 
 #include <hwloc.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <array>
@@ -118,7 +119,8 @@ void thread_binding::release_this_thread() const {
 const std::vector<int>& thread_binding::units() const { return state_->units; }
 
 std::string thread_binding::description() const {
-  if (state_->word == "none") return "none";
+  if (state_->word == "none")
+    return omp_get_proc_bind() == omp_proc_bind_false ? "none" : "none: left to OMP_PROC_BIND";
   if (!state_->why.empty()) return "none: " + state_->why;
   if (const int e = state_->failed) return std::string("none: ") + std::strerror(e);
   std::string text = state_->word;

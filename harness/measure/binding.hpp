@@ -33,7 +33,7 @@ class thread_binding {
 
   /// The unit of thread 0, 1, ...; empty if nothing is bound.
   const std::vector<int>& units() const;
-  /// "cores_first 0,1", "none", or "none: " and why.
+  /// "cores_first 0,1", "none", or "none: " and why, or who binds instead.
   std::string description() const;
 
  private:

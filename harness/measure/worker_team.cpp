@@ -3,6 +3,13 @@
 #include <omp.h>
 #include <tbb/task_scheduler_observer.h>
 
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/omp_loop.hpp>
 #include <pairsum/core/tbb_arena.hpp>
 #include "harness/measure/binding.hpp"
 
@@ -29,10 +36,9 @@ class worker_team::slot_binder : public ::tbb::task_scheduler_observer {
 worker_team::worker_team(runtime kind, int threads, const thread_binding* binding) : binding_(binding) {
   if (kind == runtime::omp) {
     team_ = team::omp(threads);
-    if (binding_) {
-#pragma omp parallel num_threads(threads)
-      binding_->bind_this_thread(omp_get_thread_num());
-    }
+    omp_region(threads, [&](int thread) {
+      if (binding_) binding_->bind_this_thread(thread);
+    });
     return;
   }
   omp_pause_resource_all(omp_pause_hard);
@@ -42,6 +48,23 @@ worker_team::worker_team(runtime kind, int threads, const thread_binding* bindin
     if (binding_) binder_ = std::make_unique<slot_binder>(arena_->arena, *binding_);
   }
   if (binding_) binding_->bind_this_thread(0);
+  if (kind != runtime::tbb) return;
+  if (const int got = threads_at_once(team_, std::chrono::seconds(10)); got != threads)
+    throw error("oneTBB gave " + std::to_string(got) + " of " + std::to_string(threads) +
+                " threads: something else holds its workers");
+}
+
+int threads_at_once(const team& t, std::chrono::milliseconds patience) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  std::atomic<int> inside = 0, most = 0;
+  t.for_each(static_cast<std::size_t>(t.threads()), [&](std::size_t) {
+    const int now = ++inside;
+    for (int before = most; before < now && !most.compare_exchange_weak(before, now);) {
+    }
+    while (most < t.threads() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    --inside;
+  });
+  return most;
 }
 
 worker_team::~worker_team() {

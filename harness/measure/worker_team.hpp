@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <memory>
 
 #include <pairsum/core/team.hpp>
@@ -17,6 +18,8 @@ class thread_binding;
 /// With a binding, which must outlive the team, thread k runs on the binding's unit k: OpenMP's thread k, the thread in
 /// slot k of oneTBB's arena, the caller as thread 0. When the team ends, caller and OpenMP threads are unbound;
 /// oneTBB's are unbound when they have left the arena. One bound team lives at a time.
+///
+/// A team that does not come out with all its threads is a pairsum::error.
 class worker_team {
  public:
   worker_team(runtime kind, int threads, const thread_binding* binding = nullptr);
@@ -30,5 +33,8 @@ class worker_team {
   std::unique_ptr<slot_binder> binder_;  ///< goes before the arena
   team team_;
 };
+
+/// How many of the team's threads work at the same time, if they get `patience` to come.
+int threads_at_once(const team& t, std::chrono::milliseconds patience);
 
 }  // namespace pairsum::harness

@@ -41,14 +41,21 @@ class index_function {
   void (*call_)(void*, std::size_t);
 };
 
+/// Throws pairsum::error if the system does not give this process `threads` threads (ulimit -u, a container's limit):
+/// OpenMP would end the process. Starts and ends as many, once for each larger number.
+void check_system(int threads);
+
 /// The threads a call may use, passed in by the caller: a number for OpenMP (`num_threads`), an arena for oneTBB. The
-/// library never starts threads of its own accord.
+/// library keeps no threads of its own.
 class team {
  public:
   /// One thread, the caller's.
   team() = default;
-  /// `threads` OpenMP threads.
-  static team omp(int threads) { return team(runtime::omp, threads, nullptr); }
+  /// `threads` OpenMP threads; see check_system().
+  static team omp(int threads) {
+    check_system(threads);
+    return team(runtime::omp, threads, nullptr);
+  }
   /// The arena's threads; `threads` is its concurrency. The arena must outlive the team.
   static team tbb(int threads, tbb_arena& arena) { return team(runtime::tbb, threads, &arena); }
 
@@ -90,7 +97,8 @@ class team {
 /// Throws pairsum::error if an OpenMP team of `threads` came out as `got`.
 void check_team(int threads, int got);
 
-/// Throws pairsum::error if a sum that was prepared for so many threads gets a team of more, or an arena of more.
+/// Throws pairsum::error if a sum that was prepared for so many threads gets a team of more, or an arena of more, or an
+/// arena that oneTBB does not give its threads.
 void check_prepared(int threads, const team& t);
 
 }  // namespace pairsum

@@ -6,6 +6,7 @@
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -220,6 +221,40 @@ TEST(binding, failure_is_told) {
     if (b.units().empty() || !refuse_to_bind()) return true;
     return b.description() != told && !b.bind_this_thread(0) && b.description() == told;
   })) << "later";
+}
+
+TEST(worker_team, counts_the_threads_that_work_at_once) {
+  using ::tbb::global_control;
+  tbb_arena arena(3);
+  const team three = team::tbb(3, arena);
+  EXPECT_EQ(threads_at_once(three, std::chrono::seconds(10)), 3);
+  EXPECT_EQ(threads_at_once(team(), std::chrono::seconds(10)), 1);
+  const global_control limit(global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(threads_at_once(three, std::chrono::milliseconds(100)), 1);
+}
+
+TEST(worker_team, is_not_made_smaller_by_another_that_lives) {
+  tbb_arena five(5);
+  {
+    const tbb_arena one(1), three(3);
+    EXPECT_EQ(threads_at_once(team::tbb(5, five), std::chrono::seconds(10)), 5);
+  }
+  EXPECT_EQ(threads_at_once(team::tbb(5, five), std::chrono::seconds(10)), 5);
+}
+
+/// By a program that holds pairsum, for example.
+TEST(worker_team, that_gets_fewer_threads_is_refused) {
+  using ::tbb::global_control;
+  std::string refusal;
+  try {
+    const global_control limit(global_control::max_allowed_parallelism, 1);
+    const worker_team two(runtime::tbb, 2);
+  } catch (const error& e) {
+    refusal = e.what();
+  }
+  EXPECT_EQ(refusal,
+            "oneTBB gives 1 of 2 threads; end or raise the tbb::global_control that limits max_allowed_parallelism");
+  const worker_team two(runtime::tbb, 2);
 }
 
 }  // namespace

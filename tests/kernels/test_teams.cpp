@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <omp.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <pairsum/core/tbb_arena.hpp>
 #include <pairsum/sum/schedule.hpp>
@@ -75,6 +79,43 @@ TEST_P(teams_test, of_openmp_that_come_out_smaller_are_an_error) {
   if (traits.deterministic) {
     EXPECT_EQ(sum->fingerprint(), evaluated(with(s.world, GetParam(), 4), s.particles)->fingerprint());
   }
+}
+
+TEST_P(teams_test, of_onetbb_that_come_out_smaller_are_an_error) {
+  if (traits.threads != runtime::tbb) GTEST_SKIP() << "no oneTBB";
+  const workers three(runtime::tbb, 3);
+  sum->index(three.get());
+  sum->prepare(three.get());
+  sum->zero(three.get());
+  std::string refusal, refused_workers;
+  {
+    using ::tbb::global_control;
+    const global_control two(global_control::max_allowed_parallelism, 2);
+    refusal = error_of([&] { sum->sum(three.get()); });
+    refused_workers = error_of([] { workers(runtime::tbb, 3); });
+  }
+  EXPECT_TRUE(says(refusal, {"oneTBB gives 2 of 3 threads", "global_control"})) << refusal;
+  EXPECT_EQ(refused_workers, refusal);
+  sum->sum(three.get());
+  sum->reduce(three.get());
+}
+
+/// As a user with a low ulimit -u: OpenMP would end the process.
+TEST(teams, that_the_system_does_not_give_are_an_error) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const rlimit one{1, 1};
+    if ((getuid() == 0 && setuid(54321) != 0) || setrlimit(RLIMIT_NPROC, &one) != 0) _exit(77);
+    const auto refused = [](runtime r) {
+      return says(error_of([&] { workers(r, 100); }), {"the system gives 1 of 100 threads", "ulimit -u"});
+    };
+    _exit(refused(runtime::omp) && refused(runtime::tbb) ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "this user cannot be another";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST(teams, of_fewer_threads_than_their_arena_are_refused) {
