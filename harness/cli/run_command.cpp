@@ -72,7 +72,7 @@ struct run_options {
   std::vector<std::string> programs, only;
   int rounds = 6;
   double budget_s = 0, half_width = 0;
-  bool fresh = false, dry_run = false, show_plan = false, peaks = false;
+  bool fresh = false, dry_run = false, show_plan = false, peaks = false, oversubscribe = false;
 };
 
 /// What was given beside the defaults, by option name without dashes.
@@ -132,6 +132,15 @@ std::string words_of(const CLI::App& command) {
   return words;
 }
 
+/// The numbers of threads of the plan's points; serial backends have 1, whatever their part says.
+std::vector<int> threads_of(const study_plan& plan, const registry& all) {
+  std::vector<int> threads;
+  for (const part_plan& part : plan.parts)
+    for (const world_plan& points : expand(part.request, all))
+      for (const point& p : points) threads.push_back(p.threads);
+  return threads;
+}
+
 int start(const run_options& o, const given_options& given) {
   study_plan plan = plan_of(o, given);
   narrow(plan, o.only, usable_cores());
@@ -155,9 +164,12 @@ int start(const run_options& o, const given_options& given) {
   const registry& all = registry_of(plan);
   if (o.dry_run) {
     fmt::print("{}", dry_run(plan, all));
+    if (const std::string why = too_many(threads_of(measurable(plan, all).plan, all)); !why.empty() && !o.oversubscribe)
+      fmt::print("it would be refused: {}\n", why);
     return 0;
   }
   check_plan(plan, all);
+  check_cores(threads_of(plan, all), o.oversubscribe);
   if (plan.builds != static_cast<int>(o.programs.size()) + 1)
     throw error(plan.builds == 1
                     ? std::string("--program names another build, which only a plan that compares builds takes")
@@ -238,6 +250,7 @@ void add_run_command(CLI::App& app, action& chosen) {
   text("--results", o->results, "folder of studies [results]", files);
   text("--study", o->study, "name of a study without a plan, its folder there [run]", files);
   text("--binding", o->binding, "cores_first: pins threads, one on every core first; none [cores_first]", machine);
+  flag("--oversubscribe", o->oversubscribe, "allow more threads than the machine has for this job", machine);
   flag("--peaks", o->peaks, "measure the machine's bandwidth and peak first, as plans may", machine);
   described(command->add_option("--program", o->programs, "another build, for plans that compare builds"), machine);
   add_plugin_option(*command);

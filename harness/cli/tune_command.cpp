@@ -55,7 +55,7 @@ struct tune_settings {
   std::map<std::string, std::string> levels;
   tune_request request;
   std::string save = "tune.profile.json";
-  bool json = false;
+  bool json = false, oversubscribe = false;
 };
 
 template <class Names>
@@ -90,19 +90,22 @@ int start_tuning(const tune_settings& o) {
     const bool all = text == "all" && (key == "backend" || key == "grid");
     read_level(r.levels, key, all ? every_word(key) : text, usable_cores(), "--" + key);
   }
+  check_cores(r.levels.threads, o.oversubscribe);
   r.rules.seed = r.levels.seed;
   check_writable(o.save);
   const registry& all = registry::instance();
   note_interrupts();
   const tune_result result = tune(r, all);
   std::FILE* const lines = o.json ? stderr : stdout;
+  if (const std::string note = limits_note(); !note.empty()) fmt::print(lines, "note: {}\n", note);
   fmt::print(lines, "{}", tune_text(r, result, all, has_colours(lines)));
   const bool saved = result.winner && !result.interrupted;
   if (saved) {
     const bool replaces = is_profile(o.save);
     write_whole_file(profile_json(r, result, all).dump(2) + "\n", o.save);
-    fmt::print(lines, "\nprofile: {}{}\nto measure it again:\n  {} run --profile {}\n", o.save,
-               replaces ? " (in place of the one that was there)" : "", shell_word(called_as()), shell_word(o.save));
+    fmt::print(lines, "\nprofile: {}{}\nto measure it again:\n  {} run --profile {}{}\n", o.save,
+               replaces ? " (in place of the one that was there)" : "", shell_word(called_as()), shell_word(o.save),
+               o.oversubscribe ? " --oversubscribe" : "");
   }
   if (result.interrupted) fmt::print(lines, "interrupted; no profile was written\n");
   if (o.json) fmt::print("{}\n", tune_json(r, result, all, saved ? o.save : "").dump(2));
@@ -129,6 +132,7 @@ void add_tune_command(CLI::App& app, action& chosen) {
       ->capture_default_str();
   command->add_option("--binding", o->request.binding, "cores_first: pins threads, one on every core first; none")
       ->capture_default_str();
+  command->add_flag("--oversubscribe", o->oversubscribe, "allow more threads than the machine has for this job");
   command->add_option("--save", o->save, "the file of the profile, which pairsum run --profile takes")
       ->capture_default_str();
   command->add_flag("--json", o->json, "what was found as one JSON document on stdout, the text on stderr");

@@ -89,6 +89,7 @@ environment_row describe_environment(const std::string& study, const std::string
   row.dirty = build::dirty;
   row.binding = binding;
   row.counters = counters;
+  row.limits = m.limits;
   row.environment = hash_text(nlohmann::json(row).dump());
   row.study = study;
   row.utc = utc_now();

@@ -5,8 +5,13 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
+
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/job_limits.hpp>
 
 namespace pairsum::harness {
 namespace {
@@ -34,15 +39,60 @@ std::string cpu_name() {
   return "unknown";
 }
 
+// What this process may run on, as it was started. A constructor of libgomp pins the first thread to one core where
+// OMP_PROC_BIND or GOMP_CPU_AFFINITY is set; what stands in .preinit_array runs before it, at_start after it.
+cpu_set_t started_on;
+bool is_known = false;
+
+void look_at_start(int, char**, char**) { is_known = sched_getaffinity(0, sizeof started_on, &started_on) == 0; }
+[[gnu::section(".preinit_array"), gnu::used]] void (*before_constructors)(int, char**, char**) = look_at_start;
+
+const struct unpinned {
+  unpinned() {
+    if (is_known) sched_setaffinity(0, sizeof started_on, &started_on);
+  }
+} at_start;
+
 }  // namespace
 
-int usable_cores() {
-  static const int cores = [] {  // once, before threads are bound
-    cpu_set_t set;
-    if (sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
-    return std::max(1, static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)));
-  }();
-  return cores;
+int units_given() {
+  if (is_known) return std::max(1, CPU_COUNT(&started_on));
+  return std::max(1, static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)));
+}
+
+int cores_within(int units, const job_limits& limits) {
+  return limits.cpus ? std::clamp(static_cast<int>(std::min(*limits.cpus + 1e-6, 1e6)), 1, units) : units;
+}
+
+int usable_cores() { return cores_within(units_given(), limits_of_this_job()); }
+
+std::string limits_text(const job_limits& limits) {
+  std::string text = limits.cpus ? fmt::format("{:.4g} processors", *limits.cpus) : "";
+  if (limits.memory)
+    text += fmt::format("{}{:.3g} GiB of memory", text.empty() ? "" : ", ",
+                        static_cast<double>(*limits.memory) / (std::uint64_t{1} << 30));
+  return text.empty() ? "none" : text;
+}
+
+std::string limits_note(int units, const job_limits& limits) {
+  if (!limits.cpus || *limits.cpus >= units) return "";
+  return fmt::format("a control group gives this job {:.4g} of {} hardware threads: {} count{} as all of them{}",
+                     *limits.cpus, units, cores_within(units, limits), cores_within(units, limits) == 1 ? "s" : "",
+                     *limits.cpus < 1 ? ", and even that one is paused now and then" : "");
+}
+
+std::string limits_note() { return limits_note(units_given(), limits_of_this_job()); }
+
+std::string too_many(const std::vector<int>& threads) {
+  const int cores = usable_cores(), most = threads.empty() ? 1 : *std::ranges::max_element(threads);
+  if (most <= cores) return "";
+  const std::string why = limits_note();
+  return fmt::format("{} threads on {} core{} tell little of the machine; --oversubscribe measures them even so{}",
+                     most, cores, cores == 1 ? "" : "s", why.empty() ? "" : " (" + why + ")");
+}
+
+void check_cores(const std::vector<int>& threads, bool oversubscribe) {
+  if (const std::string why = too_many(threads); !why.empty() && !oversubscribe) throw error(why);
 }
 
 int numa_nodes() {
@@ -65,6 +115,7 @@ machine describe_machine() {
   if (uname(&os) == 0) m.os_kernel = std::string(os.sysname) + " " + os.release;
   m.caches = cache_sizes();
   m.cores = usable_cores();
+  m.limits = limits_text(limits_of_this_job());
   std::ifstream governor("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
   if (std::string word; governor >> word) m.governor = word;
   return m;

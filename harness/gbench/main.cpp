@@ -20,6 +20,7 @@ using namespace pairsum::harness;
 /// Takes the program's own flags out of the command line; what is left is Google Benchmark's.
 bench_request parse(CLI::App& app, int argc, char** argv, std::vector<std::string>& rest) {
   bench_request r;
+  bool oversubscribe = false;
   std::string M = "6,7", threads = "all", grid = "hashed_grid", isa = "default", block = "auto";
   app.allow_extras();
   app.set_help_flag("");
@@ -31,6 +32,7 @@ bench_request parse(CLI::App& app, int argc, char** argv, std::vector<std::strin
   app.add_option("--grid", grid);
   app.add_option("--isa", isa);
   app.add_option("--block", block);
+  app.add_flag("--oversubscribe", oversubscribe);
   add_plugin_option(app);
   app.parse(argc, argv);
   load_named_plugins();
@@ -41,6 +43,7 @@ bench_request parse(CLI::App& app, int argc, char** argv, std::vector<std::strin
   r.isas = parse_words("--isa", isa);
   r.blocks = parse_words("--block", block);
   check_request(as_run(r));
+  check_cores(r.threads, oversubscribe);
   return r;
 }
 
@@ -53,7 +56,8 @@ int run(int argc, char** argv) {
     if (w == "--help" || w == "-h") {
       fmt::print(
           "pairsum_bench [--case NAME] [--dx M] [--state rest|perturbed] [--M 6,7] [--threads 1,2|all] "
-          "[--grid NAMES] [--isa NAMES] [--block auto,slab:4] [--plugin FILE] [--benchmark_filter=REGEX ...]\n");
+          "[--grid NAMES] [--isa NAMES] [--block auto,slab:4] [--oversubscribe] [--plugin FILE] "
+          "[--benchmark_filter=REGEX ...]\n");
       benchmark::PrintDefaultHelp();
       return 0;
     }
@@ -64,6 +68,7 @@ int run(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(n, words.data())) return 2;
   keep_freed_memory();
   benchmark::AddCustomContext("pairsum", describe_build());
+  if (const std::string note = limits_note(); !note.empty()) benchmark::AddCustomContext("limits", note);
   for (const auto& [name, file] : loaded_plugins()) benchmark::AddCustomContext("plugin " + name, file);
   register_backends(r);
   register_parts();

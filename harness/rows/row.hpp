@@ -132,6 +132,7 @@ struct environment_row {
   bool dirty = false;
   std::string binding;   ///< which processing unit each thread is pinned to, or "none"
   std::string counters;  ///< what the hardware counts, or "none: why"
+  std::string limits;    ///< of control groups, "2.5 processors, 4 GiB of memory" or "none"; "" in older rows
   bool operator==(const environment_row&) const = default;
 };
 

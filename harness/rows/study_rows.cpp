@@ -20,6 +20,7 @@ void to_json(json& j, const environment_row& e) {
   j["dirty"] = e.dirty;
   j["binding"] = e.binding;
   j["counters"] = e.counters;
+  if (!e.limits.empty()) j["limits"] = e.limits;
 }
 
 void from_json(const json& j, environment_row& e) {
@@ -42,6 +43,7 @@ void from_json(const json& j, environment_row& e) {
   e.dirty = from.boolean("dirty");
   e.binding = from.text("binding");
   e.counters = from.text("counters");
+  e.limits = from.has("limits") ? from.text("limits") : "";
   from.finish();
 }
 

@@ -319,6 +319,7 @@ int conduct(const study_plan& plan, const study_options& options, const registry
     for (const int t : part.request.threads)
       if (t > cores) crowded.insert(t);
   for (const int t : crowded) fmt::print("note: {} threads on {} cores\n", t, cores);
+  if (const std::string note = limits_note(); !note.empty()) fmt::print("note: {}\n", note);
   return conductor(plan, options, all).run();
 }
 

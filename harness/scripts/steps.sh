@@ -107,14 +107,16 @@ cores() { env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc; }
 
 # free_memory_mb, free_disk_mb: what is available here; a container's own memory limit counts.
 free_memory_mb() {
-  local free limit used
+  local free limit used of
   free=$(awk '$1 == "MemAvailable:" {print int($2 / 1024)}' /proc/meminfo 2>/dev/null || true)
   free=${free:-0}
-  if read -r limit 2>/dev/null </sys/fs/cgroup/memory.max && [[ $limit =~ ^[0-9]+$ ]] &&
-    read -r used 2>/dev/null </sys/fs/cgroup/memory.current; then
-    limit=$(((limit - used) / 1048576))
-    ((limit >= free)) || free=$limit
-  fi
+  for of in "memory.max memory.current" "memory/memory.limit_in_bytes memory/memory.usage_in_bytes"; do
+    if read -r limit 2>/dev/null <"/sys/fs/cgroup/${of% *}" && [[ $limit =~ ^[0-9]+$ ]] &&
+      read -r used 2>/dev/null <"/sys/fs/cgroup/${of#* }"; then
+      limit=$(((limit - used) / 1048576))
+      ((limit >= free)) || free=$limit
+    fi
+  done
   echo "$free"
 }
 free_disk_mb() { df -Pk . | awk 'NR == 2 {print int($4 / 1024)}'; }

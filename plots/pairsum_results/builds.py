@@ -61,6 +61,9 @@ def caveats(closed: pd.DataFrame, environments: pd.DataFrame, differ: str, toget
     loose = environments.loc[environments["binding"].str.startswith("none"), "binding"]
     if len(loose):
         found.append(f"threads were not pinned ({loose.iloc[0]})")
+    for limits in environments.get("limits", pd.Series(dtype=object)).dropna().unique():
+        if "processors" in limits:
+            found.append(f"a control group limits the job to {limits}: threads beyond that are paused in turns")
     if environments["governor"].fillna("unknown").nunique() > 1:
         found.append("rows with different frequency governors")
     return found

@@ -9,10 +9,10 @@ from .load import cells_words
 from .reports import Report
 from .tables import Table
 
-_MACHINE = {"host": "host", "cpu": "processor", "cores": "cores", "caches": "caches", "os_kernel": "operating system",
-            "governor": "frequency governor", "binding": "binding of threads", "counters": "hardware counters",
-            "compiler": "compiler", "flags": "compiler flags", "git": "revision", "dirty": "uncommitted changes",
-            "libraries": "libraries"}
+_MACHINE = {"host": "host", "cpu": "processor", "cores": "cores", "limits": "limits of control groups", "caches": "caches",
+            "os_kernel": "operating system", "governor": "frequency governor", "binding": "binding of threads",
+            "counters": "hardware counters", "compiler": "compiler", "flags": "compiler flags", "git": "revision",
+            "dirty": "uncommitted changes", "libraries": "libraries"}
 _PROBLEM = {"study": "study", "case": "case", "dim": "dimensions", "state": "state", "order": "order in memory",
             "dx": "spacing", "H": "support radius", "n_fluid": "fluid particles", "n_boundary": "boundary particles",
             "precision": "precision", "interaction": "interaction", "smoothing": "smoothing kernel",

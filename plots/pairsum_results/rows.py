@@ -34,8 +34,8 @@ _KINDS: dict[str, dict[str, Any]] = {
                "verify": {"max_rel_err": "number?", "bound": "number?", "fingerprint": "hex?"}, "error": "text"},
     "environment": {"environment": "hex", "caches": "counts", "cores": "from one", "governor": "text?",
                     "libraries": "texts", "dirty": "flag",
-                    **dict.fromkeys(("host", "cpu", "os_kernel", "compiler", "flags", "git", "binding", "counters"),
-                                    "text")},
+                    **dict.fromkeys(("host", "cpu", "os_kernel", "compiler", "flags", "git", "binding", "counters",
+                                     "limits"), "text")},
     "backend": {"environment": "hex",
                 **dict.fromkeys(("name", "description", "aliases", "runtime", "conflicts"), "text"),
                 **dict.fromkeys(("symmetric", "deterministic", "vector", "blocks"), "flag"),
@@ -47,7 +47,7 @@ _KINDS: dict[str, dict[str, Any]] = {
               "elapsed_s": "positive", "others_share": "amount?"},
     "void": {"round": "from one", "reason": "text"},
     "end": {"plan": "hex", "reason": "text"}}
-_OPTIONAL = {"error", "work.vector_units"}
+_OPTIONAL = {"error", "work.vector_units", "limits"}
 _SINCE_3 = {"lost", "threads_worked", "work.flops", "work.bytes"}
 _SELDOM_IN_2 = {"point.block", "workspace_bytes"}
 #: Objects whose keys are columns by their full names; those of the others, as "sum_s", tell what they are.

@@ -108,7 +108,7 @@ def test_every_backend_sums_its_interaction(call, plugin, built):
     assert {line[4] for line in lines} == {*built("BACKENDS"), "reverse_passes"}
 
 
-RUN = ["run", *SMALL, "--steps", "2", "--rounds", "1", "--threads", "1,2", "--out", "rows.jsonl"]
+RUN = ["run", *SMALL, "--steps", "2", "--rounds", "1", "--threads", "1,2", "--oversubscribe", "--out", "rows.jsonl"]
 
 
 def test_rows_of_a_run_name_it(call, plugin, tmp_path):
@@ -136,7 +136,7 @@ def test_tune(call, plugin):
 
 
 def test_bench(call, plugin):
-    made = json.loads(fine(call("--plugin", plugin, *SMALL, "--threads", "2", "--benchmark_filter=reverse_passes", "--benchmark_format=json",
+    made = json.loads(fine(call("--plugin", plugin, *SMALL, "--threads", "2", "--oversubscribe", "--benchmark_filter=reverse_passes", "--benchmark_format=json",
                                 "--benchmark_min_time=0.01", program="pairsum_bench")))
     assert made["context"]["plugin example"].startswith("example.so ")
     assert [b["name"].split("/")[0] for b in made["benchmarks"]] == ["reverse_passes"]

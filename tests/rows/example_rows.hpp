@@ -23,6 +23,7 @@ inline environment_row environment() {
   e.dirty = true;
   e.binding = "cores_first 0,1";
   e.counters = "none: no such file";
+  e.limits = "2.5 processors, 4 GiB of memory";
   return e;
 }
 
