@@ -15,6 +15,7 @@ namespace {
 /// Sum and number of the steps of a round.
 struct steps_of_round {
   double step_s = 0, sum_s = 0, n = 0;
+  std::map<int, std::uint64_t> lost;  ///< by repetition
 };
 
 std::vector<ranked> collect(const std::vector<sample>& samples, const std::map<std::string, std::string>& builds) {
@@ -36,11 +37,14 @@ std::vector<ranked> collect(const std::vector<sample>& samples, const std::map<s
     r.step_s += *s.phases->total_s;
     r.sum_s += s.phases->sum_s.value_or(0);
     ++r.n;
+    r.lost[s.repetition] += s.lost.value_or(0);
   }
   for (std::size_t k = 0; k < points.size(); ++k)
     for (const auto& [round, r] : rounds[k]) {
       points[k].step_s[round] = r.step_s / r.n;
       points[k].sum_s[round] = r.sum_s / r.n;
+      for (const auto& [repetition, lost] : r.lost) points[k].lost = std::max(points[k].lost, lost);
+      if (points[k].lost > 0) points[k].pairs = 0;
     }
   return points;
 }

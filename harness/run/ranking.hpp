@@ -15,7 +15,8 @@ struct ranked {
   point what;
   std::string build;                    ///< which of the builds that are compared; else empty
   std::map<int, double> step_s, sum_s;  ///< by round: mean over its steps
-  double pairs = 0;                     ///< interacting pairs of the initial state; 0: not counted
+  double pairs = 0;                     ///< interacting pairs of each step; 0: not known, for some particles left
+  std::uint64_t lost = 0;               ///< particles that left Omega during its steps, at most
   std::string error;                    ///< why it failed its verification; then it has no rank
   /// Its step over the fastest's, paired by the rounds that both have; without any, of the geometric means.
   ratio_estimate ratio{1, {}, 0, {}};

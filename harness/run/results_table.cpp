@@ -142,6 +142,10 @@ std::string results_table(const std::vector<ranking>& all, bool colours, std::si
       } else if (!r.step_s.empty()) {
         own.push_back(row_of(r, k, levels, alone));
         ++shown;
+        if (r.lost > 0)
+          own.push_back({{fmt::format("{} lost {} of {} fluid particles: its later steps sum the others alone",
+                                      levels.name_of(r), r.lost, r.what.n_fluid),
+                          tone::doubtful}});
       }
     }
     if (own.empty()) continue;

@@ -97,10 +97,12 @@ class errand_run {
       show("verifying " + label(p.what));
       const world::result r = part.world_of(p).measure(p.what);
       if (r.interrupted) return 130;
-      if (!r.error.empty()) note(fmt::format("{} FAILED its verification: {}", whole_label(p.what), r.error));
+      if (!r.error.empty())
+        note(fmt::format("{} {}: {}", whole_label(p.what), r.bad_state ? "gets no time" : "FAILED its verification",
+                         r.error));
       std::uint64_t lost = 0;
       for (const step_result& step : r.steps) lost += step.lost;
-      if (lost > 0)
+      if (lost > 0 && r.error.empty())
         note(fmt::format("{}: {} particles left Omega and are no longer summed", whole_label(p.what), lost));
       advance(unit);
     }

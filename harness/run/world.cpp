@@ -126,6 +126,24 @@ void add_to(std::optional<counters_row>& a, const counters::counts& b) {
   add_to(a->cache_misses, b.cache_misses);
 }
 
+std::string too_large(double dt) { return fmt::format("dt is too large ({:g} s)", dt); }
+
+std::string and_more(std::size_t others) { return others == 0 ? "" : fmt::format(" and {} more", others); }
+
+/// What is wrong with the state that was summed last, "" if nothing is.
+/// @param lost how many particles left Omega
+std::string fault_of(const summation& s, std::size_t lost, const run_request& r) {
+  if (const auto ids = s.not_finite(); !ids.empty())
+    return fmt::format("a position, velocity or density of particle {}{} is not finite: {}", ids.front(),
+                       and_more(ids.size() - 1), too_large(r.dt));
+  if (lost == 0 || r.outside == "drop") return "";
+  const auto kinds = s.snapshot().kind;
+  return fmt::format(
+      "particle {}{} left Omega: {}, or the steps are too many; --outside drop goes on without those "
+      "that leave",
+      std::ranges::find(kinds, particle_kind::lost) - kinds.begin(), and_more(lost - 1), too_large(r.dt));
+}
+
 std::optional<std::uint64_t> growth(std::uint64_t before, const std::optional<std::uint64_t>& now) {
   return now ? std::optional(*now > before ? *now - before : 0) : std::nullopt;
 }
@@ -153,6 +171,7 @@ world::result world::measure(const point& p, int steps) {
     double checking = 0;
     int evaluations_of_step = 0;
     const auto evaluate = [&] {
+      if (out.bad_state) return;  // a later stage
       pass_times passes(p.threads);
       summation->observe(&passes);
       stopwatch clock;
@@ -179,6 +198,10 @@ world::result world::measure(const point& p, int steps) {
       }
       summation->observe(nullptr);
       out.peak_rss_bytes = peak_rss_bytes();
+      if (out.error = fault_of(*summation, summation->lost(), request_); !out.error.empty()) {
+        out.bad_state = true;
+        return;
+      }
       const verifier::outcome checked = verifier_->check(*summation, {p.integrator, ++evaluations}, t);
       if (evaluations_of_step++ == 0 || worse(checked, now.checked)) now.checked = checked;
       if (evaluations == 1) out.work = work_of(p, *summation);
@@ -193,7 +216,11 @@ world::result world::measure(const point& p, int steps) {
     now.lost = lost - lost_before;
     if (kind == runtime::serial) now.threads_worked = 1;
     if (now.threads_busy_s) now.threads_worked = threads_worked(*now.threads_busy_s);
-    if (!now.checked.ok) out.error = fmt::format("step {}: {}", step, now.checked.error);
+    if (!now.checked.ok) {
+      out.bad_state = !now.checked.finite && evaluations > 1;  // what is wrong at the start is no matter of dt
+      out.error = now.checked.error + (out.bad_state ? ": " + too_large(request_.dt) : "");
+    }
+    if (!out.error.empty()) out.error = fmt::format("step {}: {}", step, out.error);
     out.steps.push_back(std::move(now));
   }
   return out;

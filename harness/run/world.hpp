@@ -64,6 +64,7 @@ class world {
     std::optional<std::uint64_t> workspace_bytes;  ///< by which the first prepare, zero, sum and reduce grew the heap
     bool interrupted = false;                      ///< the steps after an interrupt were not made
     std::string error;                             ///< set if a step was wrong; steps after it were not made
+    bool bad_state = false;                        ///< the error is of the state, not of the sum
   };
 
   /// Loads the initial state and makes the steps. Each step's rates are verified before its times are handed out; a

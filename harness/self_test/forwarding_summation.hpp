@@ -38,6 +38,7 @@ class forwarding_summation : public summation {
   std::uint64_t fingerprint() const override { return inner_->fingerprint(); }
   particle_table snapshot() const override { return inner_->snapshot(); }
   std::size_t lost() const override { return inner_->lost(); }
+  std::vector<std::uint32_t> not_finite() const override { return inner_->not_finite(); }
   summation& holder() override { return inner_->holder(); }
 
  private:

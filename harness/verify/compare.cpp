@@ -14,6 +14,14 @@ verdict compare(const rate_table& rates, const expectation& expected) {
     v.error = "the rates have other columns than the reference";
     return v;
   }
+  for (std::size_t c = 0; c < expected.names.size(); ++c)
+    for (std::size_t k = 0; k < expected.ids.size(); ++k)
+      if (!std::isfinite(expected.value[c][k]) || !std::isfinite(expected.bound[c][k])) {
+        v.ok = v.finite = false;
+        v.error = fmt::format("{} of particle {} is not finite in the reference, or its bound is not",
+                              expected.names[c], expected.ids[k]);
+        return v;
+      }
   double worst = -1;
   std::size_t failures = 0;
   for (std::size_t c = 0; c < expected.names.size(); ++c)

@@ -78,6 +78,7 @@ verifier::outcome verifier::check(summation& s, const moment& when, const team& 
                     : when.evaluation == 1 ? compare(s.rates(), initial_expectation())
                                            : compare(s.rates(), expect_now(s.snapshot(), when.evaluation, t));
   o.ok = v.ok;
+  o.finite = v.finite;
   o.max_rel_err = v.max_rel_err;
   o.bound = v.bound;
   o.error = v.error;

@@ -37,7 +37,7 @@ class verifier {
   };
 
   struct outcome {
-    bool ok = true;
+    bool ok = true, finite = true;      ///< finite: the reference is
     double max_rel_err = 0, bound = 0;  ///< of the entry nearest to its bound
     bool known = false;                 ///< recognised by its bits
     std::uint64_t fingerprint = 0;

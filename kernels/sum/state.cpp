@@ -1,5 +1,6 @@
 #include <pairsum/sum/state.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -91,6 +92,22 @@ particle_table state<D, R>::snapshot() const {
         if (std::isfinite(x)) x = omega.wrapped(d, x);
   }
   return table;
+}
+
+template <int D, class R>
+std::vector<std::uint32_t> state<D, R>::not_finite() const {
+  std::vector<std::uint32_t> ids;
+  const auto look = [&](const column<R>& c) {
+    for (std::size_t k = 0; k < c.size(); ++k)
+      if (!std::isfinite(c[k])) ids.push_back(particles_.id[k]);
+  };
+  for (const auto& c : particles_.x) look(c);
+  for (const auto& c : particles_.v) look(c);
+  look(particles_.rho);
+  std::ranges::sort(ids);
+  const auto twice = std::ranges::unique(ids);
+  ids.erase(twice.begin(), twice.end());
+  return ids;
 }
 
 #define PAIRSUM_STATES(D, R) template class state<D, R>;

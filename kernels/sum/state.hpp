@@ -23,6 +23,7 @@ class state : public summation {
   std::optional<unfolded_tests> count_unfolded_tests() const override;
   particle_table snapshot() const override;
   std::size_t lost() const override { return lost_; }
+  std::vector<std::uint32_t> not_finite() const override;
 
   /// Callers that move boundary particles, or change the order of any, must call forget_index().
   particle_set<D, R>& particles() { return particles_; }

@@ -69,6 +69,8 @@ class summation {
   virtual particle_table snapshot() const = 0;
   /// Particles that have left Omega since load().
   virtual std::size_t lost() const = 0;
+  /// Ids of particles with a position, velocity or density that is not finite, ascending.
+  virtual std::vector<std::uint32_t> not_finite() const = 0;
 
   /// The summation that holds the particles, for integrators: one that wraps another names that.
   virtual summation& holder() { return *this; }

@@ -34,7 +34,7 @@ class Results:
                   zero, sum and reduce together), what the point is, and `host`, `cpu`, `git`
     points        index `point`: what it is; of TIMES the medians over rounds (`sum_s`) with `sum_s_low`, `sum_s_high`,
                   `confidence`; `rounds`, `repetitions`, `steps`, `wait_share`, `between`, `within` (scatter of sum_s),
-                  work, memory, counters, `lost` and `threads_worked` (the most lost, the fewest that worked)
+                  work, memory, counters, `lost` (by all steps of a repetition, at most), `threads_worked` (the fewest)
     series        index `series`: what its points share; only points of one series are compared
     environments  a line per machine and build that rows name, with `build` (0, 1, ...) and `build_name`
     backends      index `name`: what each says of itself; null in rows of schema 2
@@ -214,7 +214,7 @@ def _points(samples: pd.DataFrame, rounds: pd.DataFrame) -> pd.DataFrame:
     sizes = counted.groupby(["point", "file", "round", "repetition"]).size().groupby("point").agg(["min", "max"])
     points = points.assign(steps=sizes["max"], fewest_steps=sizes["min"],
                            repetitions=rounds.groupby("point")["repetitions"].max(),
-                           **groups[["peak_rss_bytes", "workspace_bytes", "lost"]].max(),
+                           **groups[["peak_rss_bytes", "workspace_bytes"]].max(), lost=_lost(counted),
                            threads_worked=groups["threads_worked"].min(), **groups[_COUNTERS].mean() // 1)
     points = points.join(stats.medians(rounds[["point", *TIMES]], "point"))
     timed = counted[counted["threads_busy_s"].notna() & counted["barrier_wait_s"].notna()]
@@ -224,6 +224,12 @@ def _points(samples: pd.DataFrame, rounds: pd.DataFrame) -> pd.DataFrame:
     repetitions = _mean(counted, ["point", "file", "round", "repetition"], ["sum_s"])
     repetitions["process"] = repetitions.groupby(["file", "round"]).ngroup()
     return points.join(stats.components_of_variance(repetitions[repetitions["sum_s"] > 0], "point", "process", "sum_s"))
+
+
+def _lost(counted: pd.DataFrame) -> pd.Series:
+    """How many particles a repetition of each point lost, at most; null where no row says it."""
+    repetitions = counted.groupby(["point", "file", "round", "repetition"])["lost"].sum(min_count=1)
+    return repetitions.groupby("point").max()
 
 
 def _peaks(peaks: pd.DataFrame, paces: pd.DataFrame,

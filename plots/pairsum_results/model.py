@@ -30,8 +30,10 @@ def models(results: Results) -> pd.DataFrame:
     """The bound of every point's summation (docs/model.md), by the `flops` and `bytes` that its rows state and the
     peaks of the machine: `bound_s`, `limited_by` ("flops" or "bandwidth"), `share_of_bound` (of the time it takes),
     `achieved_flops_per_s`, `intensity` (flops per byte); `ns_per_pair` of the summation alone. Null where rows of that
-    time do not state the work of the model."""
+    time do not state the work of the model, and of points that lost particles, whose steps have less work."""
     points, peaks, time = results.points, peaks_of(results), results.times()
+    work = ["flops", "bytes", "pairs_interacting"]
+    points = points.assign(**points[work].where(~(points["lost"] > 0)))
     arithmetic, traffic = points["flops"] / peaks["flops_per_s"], points["bytes"] / peaks["bandwidth_bytes_per_s"]
     bound = np.maximum(arithmetic, traffic).where(time.notna())
     limit = pd.Series(np.where(arithmetic >= traffic, "flops", "bandwidth"), points.index, dtype=object)

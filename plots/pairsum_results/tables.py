@@ -57,6 +57,7 @@ def series_tables(report: Report, series: int) -> Iterator[Table]:
                  "thread", points, 2, **place, sum_ms=lambda e: ms(e.sum_s),
                  interval=lambda e: "-" if pd.isna(e.sum_s_low) else f"[{ms(e.sum_s_low)}, {ms(e.sum_s_high)}]",
                  speedup=lambda e: fixed(e.ratio, 2), efficiency=lambda e: percent(e.efficiency),
+                 **({"lost": lambda e: whole(e.lost)} if (points["lost"] > 0).any() else {}),
                  ns_per_pair=lambda e: fixed(e.ns_per_pair, 3), rounds=lambda e: whole(e.rounds))
     yield _table("Algorithm speedup: summation time of the base over that of the backend, on as many threads",
                  own["algorithm_speedup"], 3, runtime=lambda e: e.runtime, **place, ms=lambda e: ms(e.time_s),

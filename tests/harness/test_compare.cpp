@@ -50,6 +50,17 @@ TEST(compare, rejects_an_infinite_rate_with_an_infinite_bound) {
   EXPECT_TRUE(compare(rates(1, -2), e).ok) << "the bound alone was wrong";
 }
 
+TEST(compare, says_where_the_reference_is_not_finite) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  expectation e = two_particles();
+  e.value = {{1.0, nan}};
+  const verdict v = compare(rates(1, nan), e);
+  EXPECT_FALSE(v.ok);
+  EXPECT_FALSE(v.finite);
+  EXPECT_EQ(v.error, "drho of particle 2 is not finite in the reference, or its bound is not");
+  EXPECT_TRUE(compare(rates(nan, -2), two_particles()).finite) << "the backend alone was wrong";
+}
+
 TEST(compare, integers_have_no_tolerance) {
   expectation e = two_particles();
   e.bound = {{0, 0}};

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -93,6 +95,7 @@ TEST_F(facts_in_rows, particles_that_leave_are_counted_in_their_step) {
   ASSERT_EQ(run(r, path_), 0);
   for (const sample& s : read_rows(path_).samples) EXPECT_EQ(s.lost, 0u);
   r.dt = 0.1;  // so long that they fly out
+  r.outside = "drop";
   const auto path = folder_ / "lost.jsonl";
   ASSERT_EQ(run(r, path), 0);
   std::map<int, std::uint64_t> lost;
@@ -104,6 +107,47 @@ TEST_F(facts_in_rows, particles_that_leave_are_counted_in_their_step) {
   EXPECT_GT(lost[2] + lost[3], 0u);
   const initial_condition initial = make_case("dam_break", {3, 0.08, 0, "perturbed", 1});
   EXPECT_LT(lost[2] + lost[3] + lost[4], initial.particles.count(particle_kind::fluid)) << "each once";
+}
+
+TEST_F(facts_in_rows, a_point_whose_particles_leave_gets_an_error_and_no_time) {
+  run_request r = small();
+  r.M = {3};
+  r.steps = 4;
+  r.dt = 0.1;
+  ASSERT_EQ(run(r, path_), 1);
+  const auto samples = read_rows(path_).samples;
+  EXPECT_FALSE(samples.empty());
+  for (const sample& s : samples) {
+    EXPECT_FALSE(s.phases);
+    const std::string error = s.error.value_or("");
+    EXPECT_TRUE(error.starts_with("step 2: particle ") || error.starts_with("step 3: particle ")) << error;
+    EXPECT_NE(error.find("left Omega: dt is too large (0.1 s)"), std::string::npos) << error;
+  }
+}
+
+TEST_F(facts_in_rows, a_state_that_is_no_longer_finite_is_named) {
+  run_request r = small();
+  r.case_name = "periodic_lattice";
+  r.dx = {0.1};
+  r.backends = {"naive"};
+  r.M = {2};
+  r.threads = {1};
+  r.steps = 50;
+  for (const char* integrator : {"euler", "rk2", "rk4"})
+    for (const double dt : {0.02, 1e308}) {  // the formula overflows, and the state does
+      r.integrators = {integrator};
+      r.dt = dt;
+      const auto path = folder_ / fmt::format("{}_{}.jsonl", integrator, dt);
+      ASSERT_EQ(run(r, path), 1);
+      for (const sample& s : read_rows(path).samples) {
+        const std::string error = s.error.value_or("");
+        EXPECT_TRUE(error.starts_with("step ")) << error;
+        EXPECT_NE(error.find(" of particle "), std::string::npos) << error;
+        EXPECT_NE(error.find("is not finite"), std::string::npos) << error;
+        EXPECT_NE(error.find(fmt::format(": dt is too large ({:g} s)", dt)), std::string::npos) << error;
+        EXPECT_EQ(error.find("nan"), std::string::npos) << error;
+      }
+    }
 }
 
 TEST_F(facts_in_rows, threads_that_worked_are_counted) {
