@@ -30,6 +30,8 @@ struct shared_world {
   }
 };
 
+bool any_refused = false;
+
 shared_world& world_of(const bench_request& r) {
   static shared_world the_one(r);
   return the_one;
@@ -44,6 +46,7 @@ void sum_benchmark(benchmark::State& state, const bench_request& r, const point&
   summation->evaluate(t);
   const auto outcome = w.oracle->check(*summation, {}, t);
   if (!outcome.ok) {
+    any_refused = true;
     state.SkipWithError(outcome.error.c_str());
     return;
   }
@@ -89,6 +92,8 @@ run_request as_run(const bench_request& r) {
     if (b.unavailable.empty()) q.backends.emplace_back(b.traits.name);
   return q;
 }
+
+bool any_failed() { return any_refused; }
 
 void register_backends(const bench_request& r) {
   for (const world_plan& points : expand(as_run(r)))

@@ -23,6 +23,9 @@ run_request as_run(const bench_request& r);
 /// instead of a time.
 void register_backends(const bench_request& r);
 
+/// Did a backend have wrong rates?
+bool any_failed();
+
 /// Registers the parts: "smoothing/wendland_c2", "hashing/M:6", "counting_sort/bits:18".
 void register_parts();
 

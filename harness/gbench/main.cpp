@@ -74,7 +74,7 @@ int run(int argc, char** argv) {
   register_parts();
   const bool any = benchmark::RunSpecifiedBenchmarks() > 0;  // or the library has said what is wrong with the filter
   benchmark::Shutdown();
-  return any ? 0 : 2;
+  return !any ? 2 : any_failed() ? 1 : 0;
 }
 
 }  // namespace

@@ -37,6 +37,8 @@ def answer(results: Results) -> Answer | None:
     """None if nothing but self-test backends was measured."""
     points = results.points.assign(time=results.typical("total_s"))
     points = points[points["time"].notna() & ~points["backend"].isin(self_tests(results).index)]
+    if (whole := ~(points["lost"] > 0)).any():  # steps that lost particles have less to do
+        points = points[whole]
     of_first = points[points["build"] == 0]
     if of_first.empty:
         return None

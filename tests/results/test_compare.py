@@ -163,6 +163,13 @@ def test_the_fastest_is_behind_nobody_and_the_gather_on_vector_units_is_said(rep
     assert "times as fast as naive_omp (avx2), the fastest gather" in r.answer.details
 
 
+def test_a_point_that_lost_particles_is_not_the_answer(report):
+    loses = {"lost": 7}
+    r = report([(made.point("naive_omp"), 2.0), (made.point("symmetric_omp"), 1.0, loses), (made.point("tiles_omp"), 1.5)])
+    assert r.points.loc[r.answer.point, "backend"] == "tiles_omp"
+    assert report([(made.point("naive_omp"), 2.0, loses)]).answer is not None
+
+
 @pytest.mark.parametrize("points, how, reason, command", [
     ([(made.point("naive_omp", 6, 2), 1.0), (made.point("tiles_omp", None, 2, grid="compact_grid", isa="avx2"), .5)],
      {"rounds": 3}, "3 rounds of tiles_omp (compact_grid, 2 threads) give no interval (6 are needed)",
