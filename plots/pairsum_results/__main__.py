@@ -22,20 +22,30 @@ def _say(text: str) -> None:
         raise ResultsError(f"its output is lost: {problem.strerror}") from None
 
 
+def _complain(what: str) -> None:
+    """Prints a line to stderr; that it may be lost changes nothing."""
+    try:
+        print(f"pairsum: {what}", file=sys.stderr, flush=True)
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
+
+
 class _Parser(argparse.ArgumentParser):
     def print_help(self, file=None):
         _say(self.format_help().rstrip("\n"))
 
     def error(self, message: str):
         """One line, as the rest of pairsum has it."""
-        self.exit(2, f"pairsum: {one_line(message)} (see {self.prog} --help)\n")
+        _complain(f"{one_line(message)} (see {self.prog} --help)")
+        self.exit(2)
 
     def refuse(self, word: str):
         """Says of a word that nothing takes which option was meant."""
         name = word.partition("=")[0]
         near = hint(name, [known for action in self._actions for known in action.option_strings])
         what = f"unknown option {name} of {self.prog}" if word.startswith("-") else f'{self.prog} does not take "{word}"'
-        self.exit(2, f"pairsum: {one_line(what)};{near} {self.prog} --help lists its options\n")
+        _complain(f"{one_line(what)};{near} {self.prog} --help lists its options")
+        self.exit(2)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -52,10 +62,10 @@ def main(arguments: list[str] | None = None) -> int:
             programs.choices[options.program].refuse(rest[0])
         return options.run(options) or 0
     except ResultsError as problem:
-        print(f"pairsum: {one_line(str(problem))}", file=sys.stderr)
+        _complain(one_line(str(problem)))
         return 2
     except OSError as problem:
-        print(f"pairsum: {one_line(f'{problem.filename}: {problem.strerror}')}", file=sys.stderr)
+        _complain(one_line(f"{problem.filename}: {problem.strerror}"))
         return 2
     except KeyboardInterrupt:
         return 130

@@ -63,16 +63,17 @@ def history(results: Results, phase: str = "sum_s") -> History:
     (multiply-adds per second) in the same round, where both revisions have it in 3 rounds: what the round took in
     multiply-adds. Steps are paired where revisions were measured in the same rounds, else by Welch (stats.ratios).
 
-    Studies are not told apart, but the number of timed steps is: the first sorts particles, which is more work. The
-    summation is the same in every step, so `sum_s` is compared nevertheless."""
+    Studies are not told apart, but numbers of lost particles and of timed steps are: the first step sorts particles,
+    which is more work. The summation is the same in every step, so `sum_s` is compared nevertheless."""
     builds, machines, revisions = _builds(results)
     rounds = results.rounds[results.rounds["point"].isin(results.times(phase).dropna().index)]
     rounds = rounds.merge(results.paces, on=[*_ROUND, "build", "threads", "precision"], how="left")
     rounds = rounds.join(builds[["machine", "revision"]], on="build")
-    rounds = rounds.join(results.points[["seed", "steps"]], on="point")
+    rounds = rounds.join(results.points[["seed", "steps", "lost"]], on="point")
     dirty = rounds.loc[rounds["revision"] < 0, _ROUND].drop_duplicates()
     rounds = rounds[rounds["revision"] >= 0].reset_index(drop=True)
-    what = rounds[["seed", *POINT] + (["steps"] if phase != "sum_s" else [])].fillna({"seed": 0, "M": 0})
+    what = rounds[["seed", "lost", *POINT] + (["steps"] if phase != "sum_s" else [])].fillna(
+        {"seed": 0, "M": 0, "lost": 0})
     rounds["what"] = what.groupby(list(what)).ngroup()
     rounds["line"] = rounds.groupby(["machine", "what"]).ngroup()
     rounds["cell"] = rounds.groupby(["line", "revision"]).ngroup()

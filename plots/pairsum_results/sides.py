@@ -86,10 +86,10 @@ def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_m
     if not all(are_files):
         logs = pd.concat([side.logs(f"{phase}_s").add_prefix(name) for side, name in zip(sides, "ab")], axis=1)
     pairs = (_backend_pairs(sides[0], _side(a), _side(b), f"{phase}_s") if sides[0] is sides[1] else _timed(
-        sides[0], phase).merge(_timed(sides[1], phase), on=["study", "seed", *POINT], suffixes=("_a", "_b")))
+        sides[0], phase).merge(_timed(sides[1], phase), on=["study", "seed", "lost", *POINT], suffixes=("_a", "_b")))
     if pairs.empty:
-        raise ResultsError(f'"{a}" and "{b}" have no point in common (same study, seed, case, dx, grid, M, threads'
-                           f'{"" if sides[0] is sides[1] else ", backend"})')
+        raise ResultsError(f'"{a}" and "{b}" have no point in common (same study, seed, case, dx, grid, M, threads, '
+                           f'particles lost{"" if sides[0] is sides[1] else ", backend"})')
     if all(are_files) and len(read([a, b])["copies"]):
         raise ResultsError(f'"{a}" and "{b}" hold the same rounds: nothing can be compared')
     pairs = pairs.sort_values(["point_a", "point_b"], ignore_index=True)
@@ -158,8 +158,8 @@ def _side(text: str) -> tuple[str, dict[str, str]]:
 
 
 def _timed(side: Results, phase: str) -> pd.DataFrame:
-    timed = side.points[side.times(f"{phase}_s").notna()].reset_index().astype({"seed": str})
-    return timed[["point", "study", "seed", *POINT]]
+    timed = side.points[side.times(f"{phase}_s").notna()].reset_index().astype({"seed": str}).fillna({"lost": 0})
+    return timed[["point", "study", "seed", "lost", *POINT]]
 
 
 def _backend_pairs(results: Results, a: tuple[str, dict[str, str]], b: tuple[str, dict[str, str]],
@@ -167,13 +167,14 @@ def _backend_pairs(results: Results, a: tuple[str, dict[str, str]], b: tuple[str
     """Points of two backends, each with its fastest granularity, that do the same but for the levels that are named."""
     fastest = best(results, "granularity", phase=phase) == results.points.index
     points = results.points.assign(seed=results.points["seed"].astype(str), usual=made_for(results))
+    points = points.fillna({"lost": 0})
     points = points[fastest].reset_index()
     words = points[_LEVELS].assign(M=points["M"].map(lambda m: "none" if np.isnan(m) else f"{m:.0f}")).astype(str)
     free = {"backend", "granularity", "isa", "block", *a[1], *b[1]}
     free |= {"M"} if "grid" in free else set()
     own = [points[(points["backend"] == backend) & (words[list(levels)] == pd.Series(levels, dtype=object)).all(axis=1)]
            for backend, levels in (a, b)]
-    keys = ["study", "build", "seed", *(name for name in POINT if name not in free)]
+    keys = ["study", "build", "seed", "lost", *(name for name in POINT if name not in free)]
     kept = ["point", *(name for name in POINT if name in free), "usual"]
     pairs = own[0][[*keys, *kept]].merge(own[1][[*keys, *kept]], on=keys, suffixes=("_a", "_b"))
     blocks = (pairs["block_a"] == pairs["block_b"]) | (pairs[["block_a", "block_b"]] == "none").any(axis=1)

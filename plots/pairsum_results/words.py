@@ -31,7 +31,7 @@ def fixed(value: float, digits: int) -> str:
 
 def short(value: float) -> str:
     """Three digits, and never an exponent: "1.25", "12.5", "125", "12500"; "-" without a value."""
-    if pd.isna(value):
+    if not np.isfinite(value):
         return "-"
     return f"{value:.{max(0, 2 - int(np.floor(np.log10(abs(value)))))}f}" if value else "0"
 

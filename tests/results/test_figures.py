@@ -1,5 +1,7 @@
 """What each figure draws equals the tables; no text lies on another; colours mean the same everywhere."""
 import dataclasses
+import os
+import signal
 import struct
 
 import artists
@@ -280,3 +282,14 @@ def test_texts_are_drawn_as_they_are(tmp_path):
     assert "a$b$ \\frac{1}" in " ".join(text.get_text() for text in figure.texts)
     assert figures.rendered(figure, "png")
     assert pd.notna(report.points["sum_s"]).all()
+
+
+def test_a_process_that_is_killed_is_an_error_of_one_line():
+    def killed(k):
+        if k == 1:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return k
+
+    assert figures.on_all_cores(lambda k: k, [3, 1, 2]) == [3, 1, 2]
+    with pytest.raises(pr.ResultsError, match="^a process that drew figures was killed, perhaps for want of memory$"):
+        figures.on_all_cores(killed, [0, 1, 2])

@@ -128,6 +128,13 @@ def test_steps_of_another_number_are_compared_in_the_summation_alone(measure):
     assert len(load_history(files).steps) == 6 and load_history(files, "total_s").steps.empty
 
 
+def test_points_that_lost_other_numbers_of_particles_are_other_points(measure):
+    before, after = measure("aaaa111", 1), measure("bbbb222", 2, {"naive": 1.3})
+    assert verdicts(load_history([before, after]))["naive"] == "slower"
+    before.write_text(re.sub(r'"lost": \w+', '"lost": 7', before.read_text()))
+    assert load_history([before, after]).steps.empty
+
+
 def test_uncommitted_changes_have_no_revision(measure, tmp_path, capsys):
     files = [measure("aaaa111", 1), measure("bbbb222", 2, {"naive": 2}, environment={"dirty": True})]
     assert program.main(["history", *map(str, files), "--out", str(tmp_path / "out")]) == 0

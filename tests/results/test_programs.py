@@ -197,7 +197,7 @@ def test_files_and_revisions_are_unpaired_unless_measured_together(rows):
         with pytest.raises(pr.ResultsError, match=says):
             compare_sides(a, side, [])
     assert "host (elsewhere, node)" in compare_sides(a, other, [], allow_mixed=True).text()
-    with pytest.raises(pr.ResultsError, match="no point in common .same study, seed, case, dx, grid, M, threads, backend"):
+    with pytest.raises(pr.ResultsError, match="no point in common .same study, seed, case, dx, grid, M, threads, particles lost, backend"):
         compare_sides(a, rows([by(gcc, 1.0, "symmetric")], "c.jsonl", before=[gcc]), [])
 
 
@@ -278,3 +278,23 @@ def test_git_takes_rows_and_summaries_alone():
         "report.html", "ladder.svg", "tables.txt", "rounds.csv", "csv/points.csv", "paper/tables.tex")]
     made_again += ["results/talk/summary.json", "results/quick/FILE.jsonl", "results/history/history.html"]
     assert ignored([*made_again, "results/talk/FILE.jsonl", "results/talk/FILE/summary.json"]) == made_again
+
+
+@pytest.mark.parametrize("words", [["history", "nothing"], ["report"], ["compare", "a", "b", "--xyzzy"]], ids=" ".join)
+def test_a_message_that_is_lost_leaves_the_code(words, tmp_path):
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        done = subprocess.run([sys.executable, "-m", "pairsum_results", *words], cwd=tmp_path, stderr=full, check=False,
+                              env={**os.environ, "PYTHONPATH": str(ROOT / "plots")})
+    assert done.returncode == 2
+
+
+def test_a_time_beyond_all_numbers_is_no_traceback(rows, tmp_path, capsys):
+    path = rows([(made.point("naive"), 1e307), (made.point("symmetric"), 1.0)])
+    assert program.main(["report", "--tables", path, "--out", str(tmp_path / "out")]) == 0, capsys.readouterr().err
+
+
+def test_points_that_lost_different_numbers_of_particles_are_not_compared(rows):
+    path = rows([(made.point("naive"), 1.0, {"lost": 7}), (made.point("symmetric"), 0.5), (made.point("tiles_omp"), 0.5, {"lost": 7})])
+    with pytest.raises(pr.ResultsError, match="threads, particles lost, backend|threads, particles lost"):
+        compare_sides("naive", "symmetric", [path])
+    assert "Of 1 comparison B is faster in 1" in compare_sides("naive", "tiles_omp", [path]).text()

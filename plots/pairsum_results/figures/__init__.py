@@ -4,11 +4,14 @@ import dataclasses
 import gc
 import io
 import multiprocessing
+import os
 import pathlib
 import re
 import signal
 import sys
 import textwrap
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from typing import Any, Callable, Iterable
 
 from ..reports import Report
@@ -116,8 +119,12 @@ def on_all_cores(work: Callable[[Any], Any], tasks: Iterable[Any]) -> list[Any]:
     tasks = list(tasks)
     gc.freeze()
     _work = lambda k: work(tasks[k])  # noqa: E731
-    with multiprocessing.get_context("fork").Pool(initializer=_end_with_parent) as pool:
-        return pool.map(_called, range(len(tasks)), chunksize=1)
+    cores, fork = len(os.sched_getaffinity(0)), multiprocessing.get_context("fork")
+    with ProcessPoolExecutor(cores, fork, _end_with_parent) as pool:
+        try:
+            return list(pool.map(_called, range(len(tasks))))
+        except BrokenProcessPool:
+            raise ResultsError("a process that drew figures was killed, perhaps for want of memory") from None
 
 
 def _end_with_parent() -> None:
