@@ -47,13 +47,20 @@ pairsum::error unexpected(const CLI::App& app, const std::string& word) {
       fmt::format("{};{} {} --help lists its options", what, pairsum::hint_for("--" + bare, valid), called(app)));
 }
 
+/// The options that take a list of levels.
+constexpr std::string_view lists =
+    "--backend,--block,--dx,--granularity,--grid,--integrator,--interaction,--isa,--M,--order,--precision,--smoothing,"
+    "--state,--threads";
+
 /// What is wrong with words that CLI11 refuses.
 std::string refusal(const CLI::App& app, const CLI::ParseError& e) {
   const auto commands = app.get_subcommands();
   for (const CLI::Option* o : (commands.empty() ? &app : commands.front())->get_options())
     if (o->get_items_expected_max() == 1 && o->results().size() > 1 && !o->get_positional())
-      return fmt::format("{0} is given {1} times, should be once; a list has commas: {0} {2}", o->get_name(),
-                         o->results().size(), fmt::join(o->results(), ","));
+      return fmt::format("{} is given {} times, should be once", o->get_name(), o->results().size()) +
+             (pairsum::is_in(lists, o->get_name())
+                  ? fmt::format("; a list has commas: {} {}", o->get_name(), fmt::join(o->results(), ","))
+                  : "");
   return e.what();
 }
 

@@ -25,7 +25,7 @@ struct shared_world {
 
   explicit shared_world(const bench_request& r)
       : initial(make_case(r.case_name, {.dx = r.dx, .H = 0, .state = r.state, .seed = 1})) {
-    const worker_team all(runtime::omp, usable_cores());
+    const worker_team all(runtime::omp, untimed_threads(usable_cores()));
     oracle = std::make_unique<verifier>(registry::instance(), setup_of(initial), initial.particles, all.get());
   }
 };

@@ -3,6 +3,7 @@
 #include <omp.h>
 #include <tbb/task_scheduler_observer.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <string>
@@ -32,6 +33,8 @@ class worker_team::slot_binder : public ::tbb::task_scheduler_observer {
  private:
   const thread_binding& binding_;
 };
+
+int untimed_threads(int cores) { return std::min(cores, omp_get_thread_limit()); }
 
 worker_team::worker_team(runtime kind, int threads, const thread_binding* binding) : binding_(binding) {
   if (kind == runtime::omp) {

@@ -34,6 +34,9 @@ class worker_team {
   team team_;
 };
 
+/// Threads for work that is not timed: of so many cores those that OMP_THREAD_LIMIT leaves.
+int untimed_threads(int cores);
+
 /// How many of the team's threads work at the same time, if they get `patience` to come.
 int threads_at_once(const team& t, std::chrono::milliseconds patience);
 

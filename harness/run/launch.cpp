@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -114,6 +115,14 @@ std::string called_as() {
 std::string shell_word(const std::string& word) {
   constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+@%-";
   if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
+  if (std::ranges::any_of(word, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; })) {
+    std::string escaped = "$'";
+    for (const char c : word)
+      escaped += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? fmt::format("\\{:03o}", c)
+                 : c == '\'' || c == '\\'                          ? fmt::format("\\{}", c)
+                                                                   : std::string(1, c);
+    return escaped + "'";
+  }
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";

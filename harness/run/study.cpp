@@ -19,6 +19,7 @@
 #include "harness/run/results_table.hpp"
 #include "harness/run/study_file.hpp"
 #include "harness/run/worker.hpp"
+#include "harness/terminal/program.hpp"
 #include "harness/terminal/terminal.hpp"
 #include "harness/verify/shared_store.hpp"
 
@@ -260,7 +261,8 @@ class conductor {
   std::string again() const { return fmt::format("{} --out {}", options_.again, shell_word(options_.out)); }
 
   void say_next(const std::string& what, const std::string& words) {
-    say(fmt::format("rows: {}\n{}:\n  {} {}", options_.out.string(), what, shell_word(options_.program), words));
+    say(fmt::format("rows: {}\n{}:\n  {} {}", one_line(options_.out.string()), what, shell_word(options_.program),
+                    words));
   }
 
   void warn_of_disturbance() {

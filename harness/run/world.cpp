@@ -43,7 +43,7 @@ std::string world::key() const {
 }
 
 void world::make_reference() {
-  const worker_team workers(runtime::omp, usable_cores(), &with_.binding);
+  const worker_team workers(runtime::omp, untimed_threads(usable_cores()), &with_.binding);
   verifier_ = std::make_unique<verifier>(with_.all, setup_of_point(any_, particles_->initial),
                                          particles_->initial.particles, workers.get(), with_.store, key());
   recall_work();

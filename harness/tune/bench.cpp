@@ -41,7 +41,7 @@ void tune_bench::complete(point& p) const {
 void tune_bench::make_reference(const point& p) {
   auto& v = verifiers_[p.precision];
   if (v) return;
-  const worker_team workers(runtime::omp, usable_cores(), &binding_);
+  const worker_team workers(runtime::omp, untimed_threads(usable_cores()), &binding_);
   v = std::make_unique<verifier>(all_, setup_of_point(p, particles_.initial), particles_.initial.particles,
                                  workers.get());
 }

@@ -27,7 +27,7 @@ BAD_RUNS = [
     (["--dx", ",".join(map(str, range(1, 20_001)))], ["--dx", "20000 words", "at most 1000"]),
     (["--M", "3", "--threads", "1..4096", "--backend", "all"], ["more than 20000 points"]),
     (["--backend", "naive", "--backend", "symmetric"], ["--backend is given 2 times", "--backend naive,symmetric"]),
-    (["--steps", "2", "--steps", "3"], ["--steps is given 2 times"]),
+    (["--steps", "2", "--steps", "3"], ["--steps is given 2 times, should be once (see"]),
     (["--H", "nan"], ["H must be a positive"]),
     (["--H", "-0.1"], ["H must be a positive"]),
     (["--dt", "0"], ["dt must be a positive"]),

@@ -85,6 +85,15 @@ def test_more_threads_than_the_machine_has_are_measured_if_that_is_wanted(pairsu
 
 
 @two_cores
+@pytest.mark.parametrize("words", [["run", "--rounds", "1", "--steps", "1", "--out", "rows.jsonl"], ["tune", "--budget", "5"]], ids=lambda w: w[0])
+def test_one_thread_is_given_where_openmp_gives_one(pairsum, monkeypatch, words):
+    """The reference takes no more, either."""
+    monkeypatch.setenv("OMP_THREAD_LIMIT", "1")
+    done = pairsum(*words, "--dx", "0.08", "--M", "5", "--backend", "naive,naive_omp", "--threads", "1")
+    assert done.returncode == 0, done.stderr
+
+
+@two_cores
 @pytest.mark.parametrize("program, words", [w for w in LIMITED if "naive_tbb" not in w[1]])
 @pytest.mark.parametrize("name, value", [("OMP_THREAD_LIMIT", "1"), ("OMP_MAX_ACTIVE_LEVELS", "0")])
 def test_threads_that_openmp_does_not_give_are_an_error(pairsum, monkeypatch, program, words, name, value):

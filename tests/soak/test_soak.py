@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from soak import Faults, finished_rounds, nothing_lost
+from soak import ACTIONS, Faults, finished_rounds, nothing_lost
 
 SOAK = pathlib.Path(__file__).with_name("soak.py")
 
@@ -54,3 +54,4 @@ def test_a_short_soak_loses_nothing():
     assert done.returncode == 0, done.stdout + done.stderr
     counts = json.loads(done.stdout)
     assert counts["fault"] is None and counts["starts"] >= 3 and counts["rounds"] >= 60
+    assert sum(counts.get(action, 0) for action in ACTIONS) >= 2
