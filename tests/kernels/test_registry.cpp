@@ -67,7 +67,9 @@ TEST(registry, unknown_words_are_errors_that_list_the_valid_ones) {
   EXPECT_EQ(refusal(good), "");
   setup s = good;
   s.backend = "symetric";
-  EXPECT_TRUE(says(refusal(s), {"backend", "\"symetric\"", "naive, naive_omp", "symmetric_tbb"})) << refusal(s);
+  EXPECT_TRUE(says(refusal(s), {"backend", "\"symetric\"", "did you mean symmetric?"})) << refusal(s);
+  s.backend = "octree";
+  EXPECT_TRUE(says(refusal(s), {"backend", "\"octree\"", "naive, naive_omp", "symmetric_tbb"})) << refusal(s);
   s = good;
   s.interaction = "ferrari";
   EXPECT_TRUE(says(refusal(s), {"interaction", "\"ferrari\"", "ferrari09", "count"})) << refusal(s);

@@ -115,6 +115,7 @@ TEST(row, every_missing_key_is_named) {
     const json other = json::parse(format_row(value));
     for (const auto& item : other.items()) {
       const std::string key = item.key();
+      if (key == "limits") continue;  // rows of before have none
       EXPECT_EQ(rejection(value, [&](json& j) { j.erase(key); }), "key \"" + key + "\" is missing");
     }
   }

@@ -19,6 +19,7 @@ import tempfile
 import time
 
 DISK = 32 << 20  # bytes of the small disk
+FEWEST = 5  # starts of a study, however slow the machine
 ACTIONS = ["kill the study", "kill a worker", "kill all", "stop", "interrupt", "terminate", "fill the disk", "set the clock",
            "load", "nothing"]
 
@@ -86,7 +87,8 @@ def send(pids: list[int], what: signal.Signals) -> None:
 
 
 class Soak:
-    def __init__(self, program: str, words: list[str], folder: pathlib.Path, seed: int):
+    def __init__(self, program: str, words: list[str], folder: pathlib.Path, seed: int, wait_s: float):
+        self.wait_s = wait_s
         self.words, self.folder, self.random = [program, "run", *words], folder, random.Random(seed)
         self.counts: collections.Counter = collections.Counter()
         self.rounds: dict[str, dict[int, str]] = {}
@@ -112,14 +114,15 @@ class Soak:
 
     def study(self, path: pathlib.Path, until: float) -> bool:
         """One start; true if the study ended by itself, with every round it wants."""
-        action = self.random.choice(ACTIONS) if time.time() < until else "nothing"
+        over = time.time() >= until and self.counts["starts"] >= FEWEST
+        action = "nothing" if over else self.random.choice(ACTIONS)
         log = (self.folder / "log").open("w+")
         with subprocess.Popen([*self.words, "--out", str(path)], stdout=log, stderr=log, env=self.environment,
                               start_new_session=True) as process:
             group = process.pid
             if action != "nothing":
                 try:
-                    process.wait(self.random.expovariate(1 / 4.0))
+                    process.wait(self.random.expovariate(1 / self.wait_s))
                 except subprocess.TimeoutExpired:
                     self.disturb(action, process, group)
             process.wait()
@@ -179,7 +182,7 @@ class Soak:
     def run(self, seconds: float) -> None:
         shared = set(os.listdir("/dev/shm"))
         until, number = time.time() + seconds, 0
-        while time.time() < until:
+        while time.time() < until or self.counts["starts"] < FEWEST:
             number += 1
             path = self.disk / f"{number}.jsonl"
             while not self.study(path, until):
@@ -198,10 +201,11 @@ def main() -> int:
     parser.add_argument("--program", default="build/study/bin/pairsum")
     parser.add_argument("--seconds", type=float, default=3600)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--wait", type=float, default=4.0, help="seconds before something is done to a study, on average")
     parser.add_argument("words", nargs="*", default=["quick"], help="what is run (default: quick); after --")
     given = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="soak-") as folder:
-        soak = Soak(str(pathlib.Path(given.program).resolve()), given.words, pathlib.Path(folder), given.seed)
+        soak = Soak(str(pathlib.Path(given.program).resolve()), given.words, pathlib.Path(folder), given.seed, given.wait)
         fault = ""
         try:
             soak.run(given.seconds)

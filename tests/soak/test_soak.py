@@ -49,9 +49,9 @@ def test_a_round_that_is_lost_is_found(after, says):
 def test_a_short_soak_loses_nothing():
     words = ["--dx", "0.08", "--backend", "naive_omp,symmetric_omp", "--M", "6", "--threads", "2", "--steps", "20", "--rounds", "60",
              "--binding", "none"]
-    done = subprocess.run([sys.executable, SOAK, "--program", os.environ["PAIRSUM_BIN"] + "/pairsum", "--seconds", "12", "--",
+    done = subprocess.run([sys.executable, SOAK, "--program", os.environ["PAIRSUM_BIN"] + "/pairsum", "--seconds", "12", "--wait", "1", "--",
                            *words], capture_output=True, text=True, timeout=240, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     counts = json.loads(done.stdout)
-    assert counts["fault"] is None and counts["starts"] >= 3 and counts["rounds"] >= 60
+    assert counts["fault"] is None and counts["starts"] >= 5 and counts["rounds"] >= 60
     assert sum(counts.get(action, 0) for action in ACTIONS) >= 2
