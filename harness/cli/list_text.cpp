@@ -92,7 +92,7 @@ std::string overview_text(const registry& r) {
     const std::string head = fmt::format("{:<12} {:>3}  ", kind.name, plans ? std::ssize(entries) : here);
     text += filled(head, plans ? starred_plans(entries) : words_text(entries), head.size());
   }
-  return text + "next: pairsum list backends NAME, pairsum run PLAN --dry-run, pairsum tune --help\n";
+  return text + "next: pairsum list backends NAME, run PLAN --dry-run, tune --help\n";
 }
 
 std::string kind_text(const std::string& kind, const registry& r) {

@@ -110,7 +110,8 @@ class conductor {
       code_ = 130;
     } else if (end.signal == 0 && (end.code > 1 || !end.done)) {
       if (end.code != 2)
-        say(fmt::format("a process of the study ended with code {}, before its work was done", end.code));
+        say(fmt::format("a process of the study ended with code {}, before its work was done{}", end.code,
+                        options_.builds.size() > 1 ? ": are all programs pairsum, of this version?" : ""));
       code_ = 2;  // with code 2 it has said why
     }
     return code_ == 0 && end.signal == 0;

@@ -100,7 +100,7 @@ TEST_F(launch, names_the_running_program) {
   EXPECT_TRUE(std::filesystem::equivalent(this_program(), "/proc/self/exe"));
 }
 
-TEST(launch, a_word_of_a_shell_is_one_word_and_one_line) {
+TEST(shell_word, is_one_word_and_one_line) {
   EXPECT_EQ(shell_word("a/b.jsonl"), "a/b.jsonl");
   EXPECT_EQ(shell_word("a b'c"), "'a b'\\''c'");
   EXPECT_EQ(shell_word("a\n\x1b[31m'"), "$'a\\012\\033[31m\\''");
