@@ -59,7 +59,9 @@ TEST(nearest, is_said_wherever_a_word_is_unknown) {
             std::string("unknown state \"perturbd\"; did you mean perturbed? valid: rest, perturbed"));
   EXPECT_EQ(unknown_name("state", "frozen", texts{"rest", "perturbed"}).what(),
             std::string("unknown state \"frozen\"; valid: rest, perturbed"));
-  EXPECT_EQ(unknown_name("word", "frozem", texts(13, "frozen")).what(),
+  texts many(12, "perturbed");
+  many.emplace_back("frozen");
+  EXPECT_EQ(unknown_name("word", "frozem", many).what(),
             std::string("unknown word \"frozem\"; did you mean frozen?"));  // and no long list behind it
   const registry& r = registry::instance();
   const auto says = [](const std::string& text, const std::string& hint) {
