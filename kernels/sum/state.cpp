@@ -105,8 +105,7 @@ std::vector<std::uint32_t> state<D, R>::not_finite() const {
   for (const auto& c : particles_.v) look(c);
   look(particles_.rho);
   std::ranges::sort(ids);
-  const auto twice = std::ranges::unique(ids);
-  ids.erase(twice.begin(), twice.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());  // clang 14 cannot take std::ranges::unique
   return ids;
 }
 
