@@ -2,11 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/names.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/environment/environment.hpp"
+#include "harness/plan/levels.hpp"
 #include "harness/plugin/plugins.hpp"
 #include "harness/terminal/program.hpp"
 
@@ -47,10 +49,12 @@ pairsum::error unexpected(const CLI::App& app, const std::string& word) {
       fmt::format("{};{} {} --help lists its options", what, pairsum::hint_for("--" + bare, valid), called(app)));
 }
 
-/// The options that take a list of levels.
-constexpr std::string_view lists =
-    "--backend,--block,--dx,--granularity,--grid,--integrator,--interaction,--isa,--M,--order,--precision,--smoothing,"
-    "--state,--threads";
+/// Is an option a level that takes a list?
+bool is_list(const std::string& option) {
+  const nlohmann::json levels = pairsum::harness::levels_json({});
+  const auto level = levels.find(option.substr(2));
+  return level != levels.end() && level->is_array();
+}
 
 /// What is wrong with words that CLI11 refuses.
 std::string refusal(const CLI::App& app, const CLI::ParseError& e) {
@@ -58,7 +62,7 @@ std::string refusal(const CLI::App& app, const CLI::ParseError& e) {
   for (const CLI::Option* o : (commands.empty() ? &app : commands.front())->get_options())
     if (o->get_items_expected_max() == 1 && o->results().size() > 1 && !o->get_positional())
       return fmt::format("{} is given {} times, should be once", o->get_name(), o->results().size()) +
-             (pairsum::is_in(lists, o->get_name())
+             (is_list(o->get_name())
                   ? fmt::format("; a list has commas: {} {}", o->get_name(), fmt::join(o->results(), ","))
                   : "");
   return e.what();

@@ -115,12 +115,13 @@ std::string called_as() {
 std::string shell_word(const std::string& word) {
   constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+@%-";
   if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
-  if (std::ranges::any_of(word, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; })) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  if (std::ranges::any_of(word, is_control)) {
     std::string escaped = "$'";
     for (const char c : word)
-      escaped += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? fmt::format("\\{:03o}", c)
-                 : c == '\'' || c == '\\'                          ? fmt::format("\\{}", c)
-                                                                   : std::string(1, c);
+      escaped += is_control(c)            ? fmt::format("\\{:03o}", c)
+                 : c == '\'' || c == '\\' ? fmt::format("\\{}", c)
+                                          : std::string(1, c);
     return escaped + "'";
   }
   std::string quoted = "'";
