@@ -290,14 +290,14 @@ def read(given: str | pathlib.Path | Iterable[str | pathlib.Path]) -> dict[str, 
 
 
 #: What no two rounds have in common: study, machine and build, plan, seed, time and number.
-_IDENTITY = ["study", "environment", "plan", "seed", "utc", "round"]
+IDENTITY = ["study", "environment", "plan", "seed", "utc", "round"]
 _PLACE = ["file", "study", "round"]
 
 
 def _without_copies(found: dict[str, pd.DataFrame], paths: list[pathlib.Path]) -> dict[str, pd.DataFrame]:
     """Of rounds that several files hold only the first, which is void if one of them is."""
     closed = found["round"]
-    first = closed.groupby(_IDENTITY, sort=False)["file"].transform("first")
+    first = closed.groupby(IDENTITY, sort=False)["file"].transform("first")
     copies = closed.assign(of_file=first).loc[first != closed["file"], [*_PLACE, "source", "of_file"]]
     copies["of"] = copies["of_file"].map(closed.drop_duplicates("file").set_index("file")["source"])
     for kind in ("sample", "pace", "void", "round") if len(copies) else ():

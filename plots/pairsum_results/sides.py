@@ -11,7 +11,7 @@ from .builds import differences, names
 from .compare import best
 from .ladders import made_for
 from .load import PLACE, POINT, Results, cells_words, collect, load, place_words
-from .rows import PHASES, ResultsError, read
+from .rows import IDENTITY, PHASES, ResultsError, read
 from .summary import plain
 from .words import bounded, hint, ms, text_table, unknown, wrapped
 
@@ -90,7 +90,7 @@ def compare_sides(a: str, b: str, inputs: list[str], phase: str = "sum", allow_m
     if pairs.empty:
         raise ResultsError(f'"{a}" and "{b}" have no point in common (same study, seed, case, dx, grid, M, threads, '
                            f'particles lost{"" if sides[0] is sides[1] else ", backend"})')
-    if all(are_files) and len(read([a, b])["copies"]):
+    if all(are_files) and len(sides[0].closed.merge(sides[1].closed, on=IDENTITY)):
         raise ResultsError(f'"{a}" and "{b}" hold the same rounds: nothing can be compared')
     pairs = pairs.sort_values(["point_a", "point_b"], ignore_index=True)
     pairs = pairs.join(stats.ratios(logs, "a" + pairs["point_a"].astype(str), "b" + pairs["point_b"].astype(str)))
