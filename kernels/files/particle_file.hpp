@@ -1,0 +1,52 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <pairsum/core/axes.hpp>
+#include <pairsum/particles/particle_table.hpp>
+
+namespace pairsum::files {
+
+/// How a value came to be known.
+enum class origin { read, given, derived, assumed };  ///< `given`: by an option
+
+/// A line of the table of what is known about particles of a file: "H", "0.207846 m", derived, "2 h of the header".
+struct fact {
+  std::string what, value;
+  origin how = origin::read;
+  std::string from;
+};
+
+/// What files do not say, in the words of the command line.
+struct hints {
+  std::optional<double> H, h, rho0, mass, B;  ///< m, m, kg/m3, kg, Pa
+  std::optional<double> support;              ///< H / h; none: what the dialect says, else 2
+  std::optional<double> h_quantile;           ///< of a varying h; none: the largest
+  std::optional<int> dim;                     ///< none: as found
+  std::string boundary_kind;  ///< "Type=0,1": rows whose column has one of these values; "none"; "": the format's
+  std::optional<std::string> periodic;  ///< "x,z", "all" or "none"; none: as the file says, else open
+  std::vector<double> box;  ///< low corner and high corner, or the edges of a box at 0; empty: as the file says
+  std::map<std::string, std::string> columns;  ///< quantity (x, y, z, vx, vy, vz, rho, m, h, kind) to a column's name
+};
+
+/// What one file says, as it stands there: no unit is changed and nothing is made up. A column is empty where the file
+/// has none, else it has a row per particle.
+struct file_content {
+  std::string format, dialect;              ///< "hdf5", "gadget"
+  std::array<std::vector<double>, 3> x, v;  ///< x[2] empty: 2D; v all empty: not in the file
+  std::vector<double> rho, m, h;
+  std::vector<particle_kind> kind;
+  std::map<std::string, std::vector<double>> others;  ///< columns that hints name (boundary_kind)
+  std::optional<int> dim;
+  std::optional<double> dx, h_of_all, m_of_all, m_of_boundary, rho0, B, support, time;  ///< of the header
+  std::vector<double> box_low, box_high;  ///< m, an entry per axis; empty: not in the file
+  std::optional<axes> periodic;
+  std::vector<fact> facts;  ///< what else a reader should be told
+};
+
+}  // namespace pairsum::files
