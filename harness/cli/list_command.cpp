@@ -30,7 +30,7 @@ nlohmann::json as_json() {
                      {"grids", grid_names()},
                      {"isas", isa_names()},
                      {"orders", memory_orders},
-                     {"states", case_states}};
+                     {"states", case_state_words()}};
   for (const backend_entry& b : r.backends()) {
     nlohmann::json entry = describe_backend(b.traits);
     for (const char* of_a_study : {"schema", "kind", "study", "utc", "environment", "self_test"})

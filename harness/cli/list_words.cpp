@@ -90,7 +90,7 @@ const std::vector<kind_of_word>& kinds() {
          return words;
        }},
       {"orders", "", [](const registry&) { return plain(memory_orders); }},
-      {"states", "", [](const registry&) { return plain(case_states); }},
+      {"states", "", [](const registry&) { return plain(case_state_words()); }},
       {"isas", "", [](const registry&) {
          std::vector<listed_word> words = plain(isa_names());
          words.push_back({std::string(scalar_isa), "no vector units"});

@@ -79,6 +79,7 @@ int run_program(int argc, char** argv) {
   pairsum::harness::add_run_command(app, chosen);
   pairsum::harness::add_worker_command(app, chosen);
   pairsum::harness::add_tune_command(app, chosen);
+  pairsum::harness::add_simulate_command(app, chosen);
   pairsum::harness::add_results_commands(app, chosen);
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> commands;

@@ -10,6 +10,7 @@
 
 #include <pairsum/core/error.hpp>
 #include "harness/cli/commands.hpp"
+#include "harness/cli/profile_levels.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/plan/levels.hpp"
 #include "harness/plan/narrow.hpp"
@@ -18,7 +19,6 @@
 #include "harness/run/dry_run.hpp"
 #include "harness/run/study.hpp"
 #include "harness/run/worker.hpp"
-#include "harness/tune/profile_json.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -75,29 +75,14 @@ struct run_options {
   bool fresh = false, dry_run = false, show_plan = false, peaks = false, oversubscribe = false;
 };
 
-/// What was given beside the defaults, by option name without dashes.
-using given_options = std::map<std::string, bool>;
-
-/// The levels of a profile, where no option says otherwise.
-run_request profile_levels(const run_options& o, const given_options& given) {
-  const saved_profile p = read_profile(o.profile);
-  if (const std::string text = differences(p); !text.empty()) fmt::print("note: {}\n", text);
-  run_request r = p.levels;
-  for (const auto& [key, text] : o.levels)
-    if (given.at(key) || !profile_says(key)) read_level(r, key, text, usable_cores(), "--" + key);
-  return r;
-}
-
 study_plan plan_from_options(const run_options& o, const given_options& given) {
   study_plan plan;
   plan.study = o.study;
   plan.title = "run";
   plan.peaks = o.peaks;
   part_plan part;
-  if (!o.profile.empty()) part.request = profile_levels(o, given);
+  part.request = levels_of(o.levels, o.profile, given);
   part.request.study = o.study;
-  if (o.profile.empty())
-    for (const auto& [key, text] : o.levels) read_level(part.request, key, text, usable_cores(), "--" + key);
   plan.parts.push_back(part);
   return plan;
 }
@@ -264,8 +249,7 @@ void add_run_command(CLI::App& app, action& chosen) {
       "  pairsum run talk --only backend=naive_omp,symmetric_omp --only threads=cores\n"
       "  pairsum run --dx 0.012 --backend naive_omp,symmetric_omp --M 6,7 --threads all");
   command->callback([&chosen, o, command] {
-    given_options given;
-    for (const CLI::Option* option : command->get_options()) given[option->get_single_name()] = option->count() > 0;
+    const given_options given = given_of(*command);
     o->again = words_of(*command);
     chosen = [o, given] { return start(*o, given); };
   });

@@ -10,6 +10,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/verify_report.hpp"
 #include "harness/environment/machine.hpp"
+#include "harness/evolve/initial_of.hpp"
 #include "harness/measure/memory.hpp"
 #include "harness/plan/plan.hpp"
 #include "harness/plan/variants.hpp"
@@ -103,7 +104,7 @@ int verify(const verify_options& o) {
   for (const run_request& there : requests) {
     for (const double dx : there.dx)
       for (const std::string& state : there.states) {
-        const initial_condition c = make_case(there.case_name, {there.dim, dx, there.H, state, there.seed});
+        const initial_condition c = initial_of(there, dx, state).initial;
         report.begin(there.case_name, dx, state, c);
         run_request here = there;
         here.dx = {dx};

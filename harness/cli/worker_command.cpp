@@ -6,9 +6,9 @@
 
 #include <pairsum/core/error.hpp>
 #include "harness/cli/commands.hpp"
-#include "harness/run/interrupt.hpp"
 #include "harness/run/launch.hpp"
 #include "harness/run/worker.hpp"
+#include "harness/terminal/interrupt.hpp"
 
 namespace pairsum::harness {
 namespace {

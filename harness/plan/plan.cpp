@@ -17,6 +17,7 @@
 #include <pairsum/sum/grids.hpp>
 #include <pairsum/sum/registry.hpp>
 #include "harness/plan/variants.hpp"
+#include "harness/plan/words.hpp"
 #include "harness/rows/fields.hpp"
 
 namespace pairsum::harness {
@@ -34,11 +35,18 @@ void check_positive(const char* what, double value) {
 
 }  // namespace
 
+std::vector<std::string_view> case_state_words() {
+  std::vector<std::string_view> words = case_states;
+  words.emplace_back("evolved:T");
+  return words;
+}
+
 void check_request(const run_request& r, const registry& all) {
   std::vector<std::string_view> cases;
   for (const case_entry& c : case_entries()) cases.push_back(c.name);
   check_word("case", r.case_name, cases);
-  for (const auto& s : r.states) check_word("state", s, case_states);
+  for (const auto& s : r.states)
+    if (!evolved_time(s)) check_word("state", s, case_state_words());
   for (const auto& b : r.backends) all.find_backend(b);
   for (const auto& i : r.interactions) all.check_interaction(i);
   if (std::ranges::any_of(r.interactions, [&](const std::string& i) { return all.is_smoothed(i); }))

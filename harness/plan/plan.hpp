@@ -31,6 +31,9 @@ struct run_request {
   std::uint64_t seed = 1;
 };
 
+/// The states that a case can be in, for messages and lists: those of the library, and evolved:T.
+std::vector<std::string_view> case_state_words();
+
 /// Throws pairsum::error, in one line, for a request that makes no sense (unknown words, numbers out of range), before
 /// anything is computed or written.
 void check_request(const run_request& r, const registry& all = registry::instance());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include <pairsum/core/error.hpp>
 
@@ -77,6 +78,17 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
   for (const std::string& word : parse_words(option, text))
     values.push_back(number<double>(option, word, "numbers like 0.02,0.03 (decimals after a point)"));
   return values;
+}
+
+std::optional<double> evolved_time(std::string_view state) {
+  constexpr std::string_view word = "evolved:";
+  if (!state.starts_with(word)) return std::nullopt;
+  const std::string_view text = state.substr(word.size());
+  double time = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), time);
+  if (code != std::errc() || end != text.data() + text.size() || !(time > 0) || !std::isfinite(time))
+    throw error(fmt::format("a state is evolved to a positive time in s, like evolved:0.5, not \"{}\"", state));
+  return time;
 }
 
 }  // namespace pairsum::harness

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pairsum::harness {
@@ -17,5 +19,8 @@ std::uint64_t parse_seed(const std::string& option, const std::string& text);
 
 /// "a,b,a" -> {"a","b"}: each once, in the order of their first; empty words are an error.
 std::vector<std::string> parse_words(const std::string& option, const std::string& text);
+
+/// The time in s of a state "evolved:0.5"; none for a state that is no such word. An error names what is wrong with it.
+std::optional<double> evolved_time(std::string_view state);
 
 }  // namespace pairsum::harness

@@ -17,8 +17,7 @@ namespace {
 /// Particles of a case at a spacing, extrapolated from a coarser one where making it would take long.
 double particles_of(const run_request& r, double dx) {
   const double coarse = std::max(dx, 0.04);
-  const double n =
-      static_cast<double>(make_case(r.case_name, {r.dim, coarse, r.H, r.states.front(), r.seed}).particles.size());
+  const double n = static_cast<double>(make_case(r.case_name, {r.dim, coarse, r.H, "rest", r.seed}).particles.size());
   return std::min(n * std::pow(coarse / dx, r.dim), 0x1p32);  // more than that is refused
 }
 

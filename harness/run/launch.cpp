@@ -20,8 +20,8 @@
 
 #include <pairsum/core/error.hpp>
 #include "harness/measure/cpu_time.hpp"
-#include "harness/run/interrupt.hpp"
 #include "harness/run/worker.hpp"
+#include "harness/terminal/interrupt.hpp"
 
 namespace pairsum::harness {
 namespace {

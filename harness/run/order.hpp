@@ -5,7 +5,7 @@
 
 #include "harness/plan/study.hpp"
 #include "harness/rows/reader.hpp"
-#include "harness/run/progress.hpp"
+#include "harness/terminal/progress.hpp"
 
 namespace pairsum::harness {
 

@@ -82,7 +82,7 @@ std::string aligned(const std::vector<line>& lines, bool colours) {
 }
 
 /// "X ran 1.23 [1.20, 1.26] times as fast as Y", and what could not be told from X; empty for a point alone.
-std::string verdict(const ranking& points, const level_columns& levels, bool colours) {
+std::string verdict_line(const ranking& points, const level_columns& levels, bool colours) {
   std::vector<std::string> slower, same;
   bool any_interval = false;
   for (std::size_t k = 1; k < points.size() && points[k].has_rank(); ++k) {
@@ -153,7 +153,7 @@ std::string results_table(const std::vector<ranking>& all, bool colours, std::si
     lines.push_back(
         {{fmt::format("\n{}: {} fluid and {} boundary particles", problem_words(p), p.n_fluid, p.n_boundary)}});
     std::ranges::move(own, std::back_inserter(lines));
-    if (const std::string said = verdict(points, levels, colours); !said.empty()) lines.push_back({{said}});
+    if (const std::string said = verdict_line(points, levels, colours); !said.empty()) lines.push_back({{said}});
   }
   if (hidden > 0) lines.push_back({{fmt::format("\n{} more in the report", hidden)}});
   return aligned(lines, colours);

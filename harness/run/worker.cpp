@@ -19,12 +19,12 @@
 #include "harness/rows/reader.hpp"
 #include "harness/rows/writer.hpp"
 #include "harness/run/describe_backend.hpp"
-#include "harness/run/interrupt.hpp"
-#include "harness/run/progress.hpp"
 #include "harness/run/ranking.hpp"
 #include "harness/run/world.hpp"
 #include "harness/self_test/self_test.hpp"
+#include "harness/terminal/interrupt.hpp"
 #include "harness/terminal/program.hpp"
+#include "harness/terminal/progress.hpp"
 
 namespace pairsum::harness {
 namespace {

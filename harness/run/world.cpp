@@ -17,13 +17,16 @@
 #include "harness/model/cost.hpp"
 #include "harness/rows/add_thread_times.hpp"
 #include "harness/rows/threads_worked.hpp"
-#include "harness/run/interrupt.hpp"
 #include "harness/run/point_setup.hpp"
+#include "harness/terminal/interrupt.hpp"
 
 namespace pairsum::harness {
 
 world_particles::world_particles(const run_request& r, const point& any)
-    : initial(make_case(r.case_name, {r.dim, any.dx, r.H, any.state, r.seed})) {
+    : world_particles(initial_of(r, any.dx, any.state), r) {}
+
+world_particles::world_particles(particles_of_request made, const run_request& r)
+    : initial(std::move(made.initial)), hash(std::move(made.hash)) {
   if (r.outside == "drop") dropped = drop_outside(initial.particles, initial.omega_low, initial.omega_high);
   for (const std::string& order : r.orders) orders[order] = memory_order(order, initial, r.seed);
 }
@@ -36,9 +39,9 @@ world::world(const measuring& with, const run_request& r, const point& any,
 
 /// Everything that particles, reference and trajectory depend on, and the build.
 std::string world::key() const {
-  return nlohmann::json{with_.build,      request_.case_name, request_.dim,     request_.H,
-                        request_.outside, request_.seed,      request_.dt,      any_.dx,
-                        any_.state,       any_.precision,     any_.interaction, any_.smoothing}
+  return nlohmann::json{with_.build,    request_.case_name, request_.dim,  request_.H, request_.outside,
+                        request_.seed,  request_.dt,        any_.dx,       any_.state, particles_->hash,
+                        any_.precision, any_.interaction,   any_.smoothing}
       .dump();
 }
 

@@ -6,6 +6,7 @@
 
 #include <pairsum/cases/case.hpp>
 #include <pairsum/sum/costs.hpp>
+#include "harness/evolve/initial_of.hpp"
 #include "harness/measure/binding.hpp"
 #include "harness/measure/counters.hpp"
 #include "harness/plan/plan.hpp"
@@ -27,9 +28,13 @@ struct step_result {
 struct world_particles {
   initial_condition initial;
   std::map<std::string, std::vector<std::uint32_t>> orders;
+  std::string hash;         ///< see particles_of_request
   std::size_t dropped = 0;  ///< lay outside Omega and were left out (--outside drop)
 
   world_particles(const run_request& r, const point& any);
+
+ private:
+  world_particles(particles_of_request made, const run_request& r);
 };
 
 /// What measurements of a process have in common.

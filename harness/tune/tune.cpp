@@ -12,8 +12,8 @@
 #include "harness/measure/memory.hpp"
 #include "harness/measure/stopwatch.hpp"
 #include "harness/rows/point_words.hpp"
-#include "harness/run/interrupt.hpp"
-#include "harness/run/progress.hpp"
+#include "harness/terminal/interrupt.hpp"
+#include "harness/terminal/progress.hpp"
 #include "harness/tune/bench.hpp"
 #include "harness/tune/candidates.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "harness/run/progress.hpp"
+#include "harness/terminal/progress.hpp"
 #include "harness/terminal/program.hpp"
 #include "harness/terminal/terminal.hpp"
 

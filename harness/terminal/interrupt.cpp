@@ -1,4 +1,4 @@
-#include "harness/run/interrupt.hpp"
+#include "harness/terminal/interrupt.hpp"
 
 #include <csignal>
 

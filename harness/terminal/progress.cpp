@@ -1,4 +1,4 @@
-#include "harness/run/progress.hpp"
+#include "harness/terminal/progress.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,22 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "harness/plan/plan.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace pairsum::harness {
+
+/// What was given beside the defaults, by option name without dashes.
+using given_options = std::map<std::string, bool>;
+given_options given_of(const CLI::App& command);
+
+/// The levels that options name; where a profile is named, its levels instead of those that were not given.
+/// @param profile a file of pairsum tune; empty: none
+run_request levels_of(const std::map<std::string, std::string>& options, const std::string& profile,
+                      const given_options& given);
+
+}  // namespace pairsum::harness

@@ -1,0 +1,83 @@
+#include "harness/evolve/evolved.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/workers.hpp>
+#include <pairsum/sum/setup_of.hpp>
+#include "harness/environment/machine.hpp"
+#include "harness/evolve/moment_file.hpp"
+#include "harness/evolve/simulate_registry.hpp"
+#include "harness/measure/worker_team.hpp"
+#include "harness/rows/hash_text.hpp"
+#include "harness/terminal/interrupt.hpp"
+#include "harness/terminal/progress.hpp"
+
+namespace pairsum::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// To be raised when the recipe changes in any way.
+constexpr int recipe = 1;
+
+moment step_to(double time, const initial_condition& start, const std::string& called) {
+  setup s = setup_of(start);
+  s.backend = "sliced_2colour";
+  s.interaction = "ferrari09_hard";
+  s.grid = "compact_grid";
+  s.isa = "scalar";
+  const worker_team workers(runtime::omp, untimed_threads(usable_cores()));
+  moment from{start.particles, std::vector<std::uint32_t>(start.particles.size()), 0, 0, 0, 0};
+  std::iota(from.ids.begin(), from.ids.end(), 0u);
+  simulation run(simulate_registry().make_summation(s), start, std::move(from), {}, workers.get());
+  progress shown(time);
+  while (run.t() < time) {
+    run.step(time);
+    shown.show(run.t(), fmt::format("{}: t = {:.3g} s, step {}", called, run.t(), run.steps()));
+    if (interrupted()) throw error("interrupted while it made " + called);
+  }
+  return run.save();
+}
+
+}  // namespace
+
+fs::path cache_folder() {
+  const auto set = [](const char* name) {
+    const char* const text = std::getenv(name);
+    return text != nullptr && *text != '\0' ? fs::path(text) : fs::path();
+  };
+  if (const fs::path own = set("PAIRSUM_CACHE"); !own.empty()) return own;
+  if (const fs::path users = set("XDG_CACHE_HOME"); !users.empty()) return users / "pairsum";
+  if (const fs::path home = set("HOME"); !home.empty()) return home / ".cache/pairsum";
+  throw error("there is no folder to keep evolved states in: set PAIRSUM_CACHE to one");
+}
+
+particles_of_request evolved(std::string_view case_name, const case_parameters& c, double time) {
+  if (const std::string why = why_no_moment_files(); !why.empty()) throw error(why);
+  case_parameters rest = c;
+  rest.state = "rest";
+  rest.H = 0;
+  particles_of_request made{make_case(case_name, rest), ""};
+  const std::string words =
+      nlohmann::json{recipe, case_name, c.dim, c.dx, c.seed, time, made.initial.particles.size()}.dump();
+  const std::string called = fmt::format("{} evolved to {:g} s", case_name, time);
+  const fs::path file = cache_folder() / fmt::format("evolved-{}.hdf", hash_text(words));
+  if (!fs::exists(file)) {
+    fs::create_directories(file.parent_path());
+    write_moment(file, step_to(time, made.initial, called), made.initial, words);
+  }
+  saved_moment saved = read_moment(file);
+  if (saved.settings != words) throw error(fmt::format("{} is not {}; delete it", file.string(), called));
+  made.initial.particles = std::move(saved.what.particles);
+  made.hash = hash_of(made.initial.particles);
+  if (c.H != 0) made.initial.H = c.H;
+  return made;
+}
+
+}  // namespace pairsum::harness

@@ -1,0 +1,9 @@
+#pragma once
+#include <pairsum/sum/registry.hpp>
+
+namespace pairsum::harness {
+
+/// A registry and ferrari09_hard: with wendland_c2, in double, in every dimension of this build.
+const registry& simulate_registry();
+
+}  // namespace pairsum::harness
