@@ -1,5 +1,9 @@
 # The readers and writers of particle files, a library of their own: a file per word of files/formats.def, and what they share.
-find_package(HDF5 1.10 REQUIRED COMPONENTS C)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(hdf5 IMPORTED_TARGET hdf5>=1.10)
+if(NOT hdf5_FOUND)
+  message(FATAL_ERROR "pairsum::files needs HDF5 1.10 or newer (Debian: libhdf5-dev); PAIRSUM_FILES=OFF builds without it")
+endif()
 
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS files/formats.def)
 file(STRINGS files/formats.def lines REGEX "^FORMAT\\(")
@@ -15,6 +19,6 @@ foreach(line IN LISTS lines)
 endforeach()
 list(TRANSFORM PAIRSUM_ALL_FORMATS REPLACE "(.+)" "files/\\1.cpp" OUTPUT_VARIABLE formats)
 
-add_library(pairsum_files STATIC files/formats.cpp ${formats})
+add_library(pairsum_files STATIC files/formats.cpp files/hdf5_dialects.cpp files/hdf5_file.cpp files/in_child.cpp files/words.cpp ${formats})
 add_library(pairsum::files ALIAS pairsum_files)
-target_link_libraries(pairsum_files PUBLIC pairsum_kernels PRIVATE hdf5::hdf5)
+target_link_libraries(pairsum_files PUBLIC pairsum_kernels PRIVATE PkgConfig::hdf5)
