@@ -18,10 +18,11 @@
 namespace pairsum::files {
 namespace {
 
-/// A column of a dataset.
+/// A column of a dataset, or a value for all rows where no dataset is named.
 struct source {
   std::string dataset;
   std::size_t column = 0;
+  double value = 0;
 };
 using sources = std::vector<source>;
 
@@ -61,7 +62,7 @@ class dialect_reader {
 
   /// The groups of a file that are meant.
   std::vector<particle_group> groups_of(const hdf5_file& file);
-  void header(const std::vector<particle_group>& groups);
+  void header(std::vector<particle_group>& groups);
   void columns(const std::vector<particle_group>& groups);
   file_content content;
   std::optional<std::vector<double>> attribute(const std::string& group, std::string_view alternatives) const;
@@ -102,7 +103,7 @@ sources dialect_reader::datasets(const hdf5_file& file, const std::string& group
       const std::string dataset = spelt(file, group, name);
       if (dataset.empty()) break;
       const std::size_t columns = names.size() > 1 ? 1 : file.shape_of(dataset).columns;
-      for (std::size_t c = 0; c < columns; ++c) found.push_back({dataset, c});
+      for (std::size_t c = 0; c < columns; ++c) found.push_back({dataset, c, 0});
     }
     if (!found.empty()) return found;
   }
@@ -125,7 +126,7 @@ sources dialect_reader::told_or(const particle_group& g, std::initializer_list<c
     const std::size_t columns = g.file->shape_of(dataset).columns;
     if (!(column >= 0 && column < static_cast<double>(columns)))
       throw error(g.file->path() + ": " + dataset + " has " + std::to_string(columns) + " columns, no " + told->second);
-    found.push_back({dataset, static_cast<std::size_t>(column)});
+    found.push_back({dataset, static_cast<std::size_t>(column), 0});
   }
   return found.empty() ? datasets(*g.file, g.path, alternatives) : found;
 }
@@ -256,7 +257,7 @@ void dialect_reader::box(const std::string& group, std::size_t axes_of_file) {
   content.periodic = on;
 }
 
-void dialect_reader::header(const std::vector<particle_group>& groups) {
+void dialect_reader::header(std::vector<particle_group>& groups) {
   const std::string& group = groups.front().path;
   const auto one = [&](std::string_view alternatives) -> std::optional<double> {
     const auto found = attribute(group, alternatives);
@@ -273,9 +274,13 @@ void dialect_reader::header(const std::vector<particle_group>& groups) {
   }
   box(group, axes_of_file);
   const auto masses = attribute(group, names_.masses);
-  for (const particle_group& g : groups) {
+  const bool column = std::ranges::any_of(groups, [](const particle_group& g) { return !g.m.empty(); });
+  for (particle_group& g : groups) {
     const auto k = static_cast<std::size_t>(g.number());
-    if (masses && g.m.empty() && k < masses->size() && (*masses)[k] > 0)
+    if (!masses || !g.m.empty() || k >= masses->size() || !((*masses)[k] > 0)) continue;
+    if (column)
+      g.m = {{"", 0, (*masses)[k]}};
+    else
       (g.boundary ? content.m_of_boundary : content.m_of_all) = (*masses)[k];
   }
   const auto support = [&](double s, origin how, const std::string& from) {
@@ -326,7 +331,10 @@ void dialect_reader::quantity(const std::vector<particle_group>& groups, sources
         of_dataset.push_back(all[k].column);
         places.push_back(to[k]->data() + begin);
       }
-      g.file->read(dataset, of_dataset, places);
+      if (dataset.empty())
+        std::fill_n(places[0], g.rows, all[0].value);
+      else
+        g.file->read(dataset, of_dataset, places);
     }
     begin += g.rows;
   }
