@@ -7,6 +7,10 @@ set_target_properties(pairsum_kernels PROPERTIES EXPORT_NAME pairsum OUTPUT_NAME
 set_target_properties(pairsum_options PROPERTIES EXPORT_NAME options)
 install(TARGETS pairsum_kernels pairsum_options EXPORT pairsumTargets
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(PAIRSUM_FILES)
+  set_target_properties(pairsum_files PROPERTIES EXPORT_NAME files)
+  install(TARGETS pairsum_files EXPORT pairsumTargets)
+endif()
 install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ ${CMAKE_CURRENT_BINARY_DIR}/generated/pairsum/ DESTINATION ${headers}
   FILES_MATCHING PATTERN "*.hpp" PATTERN cmake EXCLUDE)
 install(EXPORT pairsumTargets NAMESPACE pairsum:: DESTINATION ${package})

@@ -28,6 +28,7 @@ struct hints {
   std::optional<double> support;              ///< H / h; none: what the dialect says, else 2
   std::optional<double> h_quantile;           ///< of a varying h; none: the largest
   std::optional<int> dim;                     ///< none: as found
+  std::optional<std::int64_t> step;           ///< of a file with several; none: the last
   std::string boundary_kind;  ///< "Type=0,1": rows whose column has one of these values; "none"; "": the format's
   std::optional<std::string> periodic;  ///< "x,z", "all" or "none"; none: as the file says, else open
   std::vector<double> box;  ///< low corner and high corner, or the edges of a box at 0; empty: as the file says

@@ -1,0 +1,348 @@
+// What is made of what files say, but for the domain: kinds, axes, density, mass, support radius.
+#include <algorithm>
+#include <cmath>
+
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/files/nearest_spacing.hpp>
+#include <pairsum/files/set_in_making.hpp>
+#include <pairsum/files/words.hpp>
+
+namespace pairsum::files {
+namespace {
+
+constexpr double widest_h = 1.5;  ///< largest h over smallest that one H for all may stand for
+
+std::string row_text(const one_file& f, std::size_t i) { return f.path + ": particle " + std::to_string(i + 1); }
+
+template <class Column>
+double median_of(Column values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// f(file, row) for every fluid particle.
+template <class F>
+void each_fluid(const set_in_making& s, F&& f) {
+  for (const one_file& file : s.files)
+    for (std::size_t i = 0; i < file.rows; ++i)
+      if (file.content.kind[i] == particle_kind::fluid) f(file.content, i);
+}
+
+/// The median distance of fluid particles to their nearest neighbours.
+double spacing_of_fluid(const set_in_making& s) {
+  std::vector<std::vector<double>> x(s.axes.size());
+  std::vector<const std::vector<double>*> columns;
+  for (std::size_t d = 0; d < s.axes.size(); ++d) {
+    each_fluid(s, [&](const file_content& c, std::size_t i) { x[d].push_back(c.x[s.axes[d]][i]); });
+    columns.push_back(&x[d]);
+  }
+  return nearest_spacing(columns);
+}
+
+bool all_have(const set_in_making& s, std::vector<double> file_content::*column) {
+  return std::ranges::none_of(s.files, [&](const one_file& f) { return (f.content.*column).empty(); });
+}
+
+double positive(const char* option, double value) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw error(std::string(option) + " is " + number_text(value) + ", should be a positive number");
+  return value;
+}
+
+}  // namespace
+
+void choose_kinds(set_in_making& s, const std::vector<std::optional<particle_kind>>& by_path) {
+  const auto rule = boundary_rule::of(s.told.boundary_kind);
+  bool assumed = false;
+  for (std::size_t k = 0; k < s.files.size(); ++k) {
+    one_file& f = s.files[k];
+    std::vector<particle_kind>& kind = f.content.kind;
+    if (by_path[k]) {
+      kind.assign(f.rows, *by_path[k]);
+    } else if (rule && rule->none()) {
+      kind.assign(f.rows, particle_kind::fluid);
+    } else if (rule && !rule->names_groups()) {
+      const auto column = f.content.others.find(rule->column);
+      if (column == f.content.others.end())
+        throw error(f.path + " has no column " + rule->column + ", which --boundary-kind names");
+      kind.assign(f.rows, particle_kind::fluid);
+      std::vector<double> values;
+      for (const std::string& v : rule->values) {
+        const auto number = number_in(v);
+        if (!number) throw error("--boundary-kind: \"" + v + "\" should be a number");
+        values.push_back(*number);
+      }
+      for (std::size_t i = 0; i < f.rows; ++i)
+        if (std::ranges::find(values, column->second[i]) != values.end()) kind[i] = particle_kind::boundary;
+    } else if (kind.empty()) {
+      kind.assign(f.rows, particle_kind::fluid);
+      assumed = true;
+    }
+    if (kind.size() != f.rows) throw error(f.path + ": kinds and positions differ in number");
+    f.content.others.clear();
+  }
+  std::size_t fluid = 0, boundary = 0;
+  for (const one_file& f : s.files)
+    for (const particle_kind k : f.content.kind) (k == particle_kind::fluid ? fluid : boundary)++;
+  if (fluid == 0)
+    throw error(s.named() +
+                ": no particle is fluid; --boundary-kind none takes all as fluid, PATH:fluid those of a file");
+  const bool by_option = rule.has_value() || std::ranges::any_of(by_path, [](const auto& k) { return k.has_value(); });
+  const origin how = by_option ? origin::given : assumed ? origin::assumed : origin::read;
+  const char* const from = by_option ? "by option"
+                           : assumed ? "nothing says what is boundary; --boundary-kind does"
+                                     : "the file";
+  s.tell("fluid", std::to_string(fluid), how, from);
+  s.tell("boundary", std::to_string(boundary), how, from);
+}
+
+void check_numbers(set_in_making& s) {
+  for (one_file& f : s.files) {
+    file_content& c = f.content;
+    const auto check = [&](std::vector<double>& column, const char* what, bool must_be_positive) {
+      if (must_be_positive && std::ranges::all_of(column, [](double a) { return a == 0; }))
+        std::vector<double>().swap(column);
+      for (std::size_t i = 0; i < column.size(); ++i)
+        if (!std::isfinite(column[i]) || (must_be_positive && !(column[i] > 0)))
+          throw error(row_text(f, i) + " has " + what + " = " + number_text(column[i]) + ", should be " +
+                      (must_be_positive ? "positive and finite" : "finite"));
+    };
+    for (std::size_t d = 0; d < 3; ++d) {
+      const char* const names[][2] = {{"x", "vx"}, {"y", "vy"}, {"z", "vz"}};
+      check(c.x[d], names[d][0], false);
+      check(c.v[d], names[d][1], false);
+    }
+    check(c.rho, "density", true);
+    check(c.m, "mass", true);
+    if (!s.told.H && !s.told.h) check(c.h, "h", true);
+  }
+}
+
+void choose_axes(set_in_making& s) {
+  std::vector<std::size_t> there, varying;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto missing = std::ranges::count_if(s.files, [&](const one_file& f) { return f.content.x[d].empty(); });
+    if (missing == static_cast<std::ptrdiff_t>(s.files.size())) continue;
+    if (missing > 0) throw error(s.named() + ": some have a column " + "xyz"[d] + ", others have none");
+    there.push_back(d);
+    const double first = s.files[0].content.x[d][0];
+    if (std::ranges::any_of(s.files, [&](const one_file& f) {
+          return std::ranges::any_of(f.content.x[d], [&](double a) { return a != first; });
+        }))
+      varying.push_back(d);
+  }
+  const auto said = s.first([](const file_content& c) { return c.dim; });
+  const std::optional<int> dim = s.told.dim ? s.told.dim : said;
+  const char* const who = s.told.dim ? "--dim" : "the header";
+  if (dim && (*dim < 1 || *dim > 3))
+    throw error(std::string(who) + " says " + std::to_string(*dim) + " dimensions, should be 1, 2 or 3");
+  s.axes = dim ? there : varying.empty() ? there : varying;
+  if (dim) {
+    const auto n = static_cast<std::size_t>(*dim);
+    if (varying.size() > n || there.size() < n)
+      throw error(s.named() + ": " + who + " says " + std::to_string(n) + "D, but there are " +
+                  std::to_string(there.size()) + " columns of positions, of which " + std::to_string(varying.size()) +
+                  " vary");
+    // The constant ones go, the last first.
+    for (std::size_t k = s.axes.size(); k-- > 0 && s.axes.size() > n;)
+      if (std::ranges::find(varying, s.axes[k]) == varying.end())
+        s.axes.erase(s.axes.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  std::string left, kept;
+  for (const std::size_t d : there) {
+    const bool stays = std::ranges::find(s.axes, d) != s.axes.end();
+    (stays ? kept : left) += std::string(stays ? kept.empty() ? "" : ", " : left.empty() ? "" : ", ") + "xyz"[d];
+  }
+  const std::string why =
+      left.empty() ? "the columns " + kept
+                   : left + " is constant; the columns " + kept + " are x" + (s.axes.size() > 1 ? " and y" : "");
+  s.tell("dim", std::to_string(s.dim()),
+         s.told.dim     ? origin::given
+         : said         ? origin::read
+         : left.empty() ? origin::read
+                        : origin::derived,
+         (s.told.dim ? "--dim; "
+          : said     ? "the header; "
+                     : "") +
+             why);
+}
+
+void complete_columns(set_in_making& s) {
+  const hints& told = s.told;
+  tait& eos = s.made.initial.eos;
+  const bool has_rho = all_have(s, &file_content::rho), has_m = all_have(s, &file_content::m);
+  const auto header_m = s.first([](const file_content& c) { return c.m_of_all; });
+  const auto header_dx = s.first([](const file_content& c) { return c.dx; });
+  double& dx = s.made.dx;
+  const auto nearest = [&] {
+    if (dx == 0 && header_dx) {
+      dx = positive("the spacing of the header", *header_dx);
+      s.tell("dx", number_text(dx), origin::read, "the header");
+    } else if (dx == 0) {
+      dx = spacing_of_fluid(s);
+      if (!(dx > 0))
+        throw error(s.named() + ": too few particles to derive their spacing; --mass and --rho0 say mass and density");
+      s.tell("dx", number_text(dx), origin::derived, "median distance to the nearest neighbour");
+    }
+    return std::pow(dx, s.dim());
+  };
+  const auto header_rho0 = s.first([](const file_content& c) { return c.rho0; });
+  const std::optional<double> one_mass = told.mass ? told.mass : header_m;
+  if (told.rho0) {
+    eos.rho0 = positive("--rho0", *told.rho0);
+    s.tell("rho0", number_text(eos.rho0), origin::given, "--rho0");
+  } else if (header_rho0) {
+    eos.rho0 = positive("rho0 of the header", *header_rho0);
+    s.tell("rho0", number_text(eos.rho0), origin::read, "the header");
+  } else if (has_rho) {
+    double sum = 0, n = 0;
+    each_fluid(s, [&](const file_content& c, std::size_t i) {
+      sum += c.rho[i];
+      ++n;
+    });
+    eos.rho0 = sum / n;
+    s.tell("rho0", number_text(eos.rho0), origin::derived, "mean density of the fluid");
+  } else if (one_mass || has_m) {
+    std::vector<double> masses;
+    if (!one_mass) each_fluid(s, [&](const file_content& c, std::size_t i) { masses.push_back(c.m[i]); });
+    eos.rho0 = positive("the density of masses and spacing",
+                        (one_mass ? *one_mass : median_of(std::move(masses))) / nearest());
+    s.tell("rho0", number_text(eos.rho0), origin::derived,
+           "median mass of the fluid over dx^" + std::to_string(s.dim()));
+  } else {
+    throw error(s.named() + ": there is neither density nor mass; --rho0 says the density, 1000 for water in kg/m3");
+  }
+  for (one_file& f : s.files)
+    if (f.content.rho.empty()) {
+      f.content.rho.assign(f.rows, eos.rho0);
+      s.tell("density", number_text(eos.rho0), origin::assumed, f.path + " has none: rho0");
+    }
+  for (one_file& f : s.files) {
+    if (!f.content.m.empty() && !told.mass) continue;
+    const auto header_boundary = f.content.m_of_boundary;
+    const bool given = told.mass.has_value(), read = !given && f.content.m_of_all.has_value();
+    const double fluid = positive("the mass", given ? *told.mass : read ? *f.content.m_of_all : eos.rho0 * nearest());
+    const double boundary = !given && header_boundary ? positive("the mass of boundary", *header_boundary) : fluid;
+    f.content.m.resize(f.rows);
+    for (std::size_t i = 0; i < f.rows; ++i)
+      f.content.m[i] = f.content.kind[i] == particle_kind::fluid ? fluid : boundary;
+    s.tell("mass", number_text(fluid) + (boundary == fluid ? "" : ", of boundary " + number_text(boundary)),
+           given  ? origin::given
+           : read ? origin::read
+                  : origin::derived,
+           given  ? "--mass"
+           : read ? "the header"
+                  : "rho0 dx^" + std::to_string(s.dim()));
+  }
+  for (one_file& f : s.files)
+    for (const std::size_t d : s.axes)
+      if (f.content.v[d].empty()) {
+        f.content.v[d].assign(f.rows, 0.0);
+        if (d == s.axes.front()) s.tell("velocity", "0", origin::assumed, f.path + " has none");
+      }
+  if (dx == 0 && header_dx) nearest();
+  if (dx == 0) {
+    std::vector<double> all;
+    each_fluid(s, [&](const file_content& c, std::size_t i) { all.push_back(c.m[i] / c.rho[i]); });
+    dx = std::pow(median_of(std::move(all)), 1.0 / s.dim());
+    s.tell("dx", number_text(dx), origin::derived,
+           "median of (mass/density)^(1/" + std::to_string(s.dim()) + ") of the fluid");
+  }
+  const auto header_B = s.first([](const file_content& c) { return c.B; });
+  eos.B = told.B     ? positive("B", *told.B)
+          : header_B ? positive("B of the header", *header_B)
+                     : tait().B * eos.rho0 / tait().rho0;
+  s.tell("B", number_text(eos.B),
+         told.B     ? origin::given
+         : header_B ? origin::read
+                    : origin::assumed,
+         told.B     ? "by option"
+         : header_B ? "the header"
+                    : "speed of sound of " + number_text(eos.sound_speed0()) + " m/s");
+}
+
+void choose_H(set_in_making& s) {
+  const hints& told = s.told;
+  double& H = s.made.initial.H;
+  const auto said = s.first([](const file_content& c) { return c.support; });
+  const double support = told.support ? positive("--support", *told.support) : said.value_or(2);
+  const std::string factor = number_text(support) + " h";
+  const auto take = [&](double value, origin how, const std::string& from) {
+    H = value;
+    s.tell("H", number_text(H), how, from);
+  };
+  if (told.H) return take(positive("--H", *told.H), origin::given, "--H");
+  if (told.h)
+    return take(support * positive("--h", *told.h), origin::given,
+                factor + (told.support ? " by --support"
+                          : said       ? ""
+                                       : ", assumed"));
+  std::vector<double> h;
+  each_fluid(s, [&](const file_content& c, std::size_t i) {
+    if (!c.h.empty()) h.push_back(c.h[i]);
+  });
+  const auto of_all = s.first([](const file_content& c) { return c.h_of_all; });
+  if (h.empty() && of_all)
+    return take(support * positive("h of the header", *of_all), support == 1 ? origin::read : origin::derived,
+                support == 1 ? "the header" : factor + " of the header");
+  if (h.empty())
+    throw error(s.named() +
+                ": nothing says the support radius; --H does, in m, or --h with --support; the spacing is " +
+                number_text(s.made.dx) + " m");
+  if (!told.support && !said)
+    throw error(
+        s.named() +
+        ": the smoothing kernel is unknown, so h does not say the support radius; --support does, as H / h, or --H");
+  const auto [low, high] = std::ranges::minmax(h);
+  const std::string spread = number_text(low) + " to " + number_text(high) + ", a factor of " +
+                             number_text(std::round(high / low * 1000) / 1000);
+  if (high > widest_h * low)
+    throw error(s.named() + ": h goes from " + spread + ", and pairsum has one H for all particles, so " +
+                number_text(widest_h) + " is the most; --H takes a length all the same");
+  const double q = told.h_quantile.value_or(1);
+  if (!(q > 0 && q <= 1)) throw error("--h-quantile is " + number_text(q) + ", should be above 0 and at most 1");
+  const auto at = h.begin() + static_cast<std::ptrdiff_t>(std::ceil(q * static_cast<double>(h.size())) - 1);
+  std::ranges::nth_element(h, at);
+  s.tell("h", spread, origin::read, "the column h of the fluid");
+  take(support * *at, origin::derived, factor + (q == 1 ? ", of the largest" : ", of the quantile " + number_text(q)));
+}
+
+void gather(set_in_making& s) {
+  particle_table& p = s.made.initial.particles;
+  p = particle_table(s.dim());
+  const bool as_it_is = s.files.size() == 1 && std::ranges::is_sorted(s.files[0].content.kind);
+  const auto column = [&](auto&& of) {
+    auto& first = of(s.files[0].content);
+    if (as_it_is) return std::move(first);
+    std::remove_reference_t<decltype(first)> all;
+    std::size_t rows = 0;
+    for (const one_file& f : s.files) rows += f.rows;
+    all.reserve(rows);
+    for (const particle_kind k : {particle_kind::fluid, particle_kind::boundary})
+      for (one_file& f : s.files) {
+        const auto& from = of(f.content);
+        for (std::size_t i = 0; i < f.rows; ++i)
+          if (f.content.kind[i] == k) all.push_back(from[i]);
+      }
+    for (one_file& f : s.files) std::remove_reference_t<decltype(first)>().swap(of(f.content));
+    return all;
+  };
+  for (one_file& f : s.files) {
+    std::vector<double>().swap(f.content.h);
+    for (std::size_t d = 0; d < 3; ++d)
+      if (std::ranges::find(s.axes, d) == s.axes.end())
+        for (auto* const left : {&f.content.x[d], &f.content.v[d]}) std::vector<double>().swap(*left);
+  }
+  for (std::size_t d = 0; d < s.axes.size(); ++d) {
+    p.x[d] = column([&](file_content & c) -> auto& { return c.x[s.axes[d]]; });
+    p.v[d] = column([&](file_content & c) -> auto& { return c.v[s.axes[d]]; });
+  }
+  p.rho = column([](file_content & c) -> auto& { return c.rho; });
+  p.m = column([](file_content & c) -> auto& { return c.m; });
+  p.kind = column([](file_content & c) -> auto& { return c.kind; });
+}
+
+}  // namespace pairsum::files

@@ -1,0 +1,448 @@
+// HDF5 files of several programs, by the names of hdf5_dialects.cpp. They are read in a child process, since HDF5 may
+// crash or hang on damaged files.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/files/formats.hpp>
+#include <pairsum/files/hdf5_dialects.hpp>
+#include <pairsum/files/hdf5_file.hpp>
+#include <pairsum/files/in_child.hpp>
+#include <pairsum/files/words.hpp>
+
+namespace pairsum::files {
+namespace {
+
+/// A column of a dataset, or a value for all rows where no dataset is named.
+struct source {
+  std::string dataset;
+  std::size_t column = 0;
+  double value = 0;
+};
+using sources = std::vector<source>;
+
+/// A group with particles, and where its columns are. Empty: not there.
+struct particle_group {
+  const hdf5_file* file = nullptr;
+  std::string path, label;  ///< "particles/fluid/arrays", "fluid"
+  sources x, v, rho, m, h, kind, other;
+  std::size_t rows = 0;
+  bool boundary = false;
+
+  int number() const {
+    const std::size_t digits = label.find_last_not_of("0123456789") + 1;
+    return digits < label.size() && label.size() - digits < 9 ? std::stoi(label.substr(digits)) : -1;
+  }
+};
+
+/// A name of a dataset below a group as the file spells it; empty if there is none.
+std::string spelt(const hdf5_file& file, const std::string& group, std::string_view name) {
+  std::string at = group;
+  for (const std::string_view part : split(name, '/')) {
+    const std::vector<std::string> names = file.names(at);
+    auto found = std::ranges::find(names, part);
+    if (found == names.end())
+      found = std::ranges::find_if(names, [&](const std::string& n) { return same_word(n, part); });
+    if (found == names.end()) return {};
+    at += (at.empty() ? "" : "/") + *found;
+  }
+  return at;
+}
+
+/// Reads what one file, or the files of one snapshot, hold.
+class dialect_reader {
+ public:
+  dialect_reader(const hdf5_file& first, const hdf5_dialect& names, const hints& told)
+      : first_(first), names_(names), told_(told) {}
+
+  /// The groups of a file that are meant.
+  std::vector<particle_group> groups_of(const hdf5_file& file);
+  void header(std::vector<particle_group>& groups);
+  void columns(const std::vector<particle_group>& groups);
+  file_content content;
+  std::optional<std::vector<double>> attribute(const std::string& group, std::string_view alternatives) const;
+
+ private:
+  sources datasets(const hdf5_file& file, const std::string& group, std::string_view alternatives) const;
+  sources told_or(const particle_group& g, std::initializer_list<const char*> quantities,
+                  std::string_view alternatives) const;
+  void locate(particle_group& g) const;
+  bool told_boundary(const particle_group& g) const;
+  void box(const std::string& group, std::size_t axes_of_file);
+  void quantity(const std::vector<particle_group>& groups, sources particle_group::*which, const char* what,
+                std::span<std::vector<double>* const> to);
+
+  const hdf5_file& first_;
+  const hdf5_dialect& names_;
+  const hints& told_;
+};
+
+std::optional<std::vector<double>> dialect_reader::attribute(const std::string& group,
+                                                             std::string_view alternatives) const {
+  for (const std::string_view one : split(alternatives, '|')) {
+    const std::size_t at = one.find('@');
+    const std::string object = at == 0 ? group : std::string(one.substr(0, at)), name(one.substr(at + 1));
+    if (!object.empty() && !first_.has(object)) continue;
+    if (const auto numbers = first_.numbers(object, name)) return numbers;
+    if (const auto text = first_.text(object, name))
+      if (const auto number = number_in(*text)) return std::vector<double>{*number};
+  }
+  return {};
+}
+
+sources dialect_reader::datasets(const hdf5_file& file, const std::string& group, std::string_view alternatives) const {
+  for (const std::string_view one : split(alternatives, '|')) {
+    sources found;
+    const auto names = split(one, ',');
+    for (const std::string_view name : names) {
+      const std::string dataset = spelt(file, group, name);
+      if (dataset.empty()) break;
+      const std::size_t columns = names.size() > 1 ? 1 : file.shape_of(dataset).columns;
+      for (std::size_t c = 0; c < columns; ++c) found.push_back({dataset, c, 0});
+    }
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
+/// As an option says, DATASET or DATASET:COLUMN, else as the dialect does.
+sources dialect_reader::told_or(const particle_group& g, std::initializer_list<const char*> quantities,
+                                std::string_view alternatives) const {
+  sources found;
+  for (const char* const quantity : quantities) {
+    const auto told = told_.columns.find(quantity);
+    if (told == told_.columns.end()) break;
+    const std::size_t colon = told->second.rfind(':');
+    const std::string dataset = spelt(*g.file, g.path, told->second.substr(0, colon));
+    const auto column = colon == told->second.npos ? 0 : number_in(told->second.substr(colon + 1)).value_or(-1);
+    if (dataset.empty())
+      throw error(g.file->path() + ": " + g.path + " has no " + told->second + " for " + quantity + "; it has " +
+                  join(g.file->names(g.path)));
+    const std::size_t columns = g.file->shape_of(dataset).columns;
+    if (!(column >= 0 && column < static_cast<double>(columns)))
+      throw error(g.file->path() + ": " + dataset + " has " + std::to_string(columns) + " columns, no " + told->second);
+    found.push_back({dataset, static_cast<std::size_t>(column), 0});
+  }
+  return found.empty() ? datasets(*g.file, g.path, alternatives) : found;
+}
+
+void dialect_reader::locate(particle_group& g) const {
+  g.x = told_or(g, {"x", "y", "z"}, names_.x);
+  if (g.x.empty()) return;
+  g.rows = g.file->shape_of(g.x[0].dataset).rows;
+  g.v = told_or(g, {"vx", "vy", "vz"}, names_.v);
+  g.rho = told_or(g, {"rho"}, names_.rho);
+  g.m = told_or(g, {"m"}, names_.m);
+  g.h = told_or(g, {"h"}, names_.h);
+  g.kind = told_or(g, {"kind"}, names_.kind);
+  if (const auto rule = boundary_rule::of(told_.boundary_kind); rule && !rule->names_groups())
+    g.other = datasets(*g.file, g.path, rule->column);
+  for (const sources* const all : {&g.x, &g.v, &g.rho, &g.m, &g.h, &g.kind, &g.other})
+    for (const source& s : *all) {
+      const std::size_t rows = g.file->shape_of(s.dataset).rows;
+      if (rows != g.rows)
+        throw error(g.file->path() + ": " + s.dataset + " has " + std::to_string(rows) + " rows, but " +
+                    g.x[0].dataset + " has " + std::to_string(g.rows));
+    }
+  for (const sources* const one : {&g.rho, &g.m, &g.h, &g.kind})
+    if (one->size() > 1)
+      throw error(g.file->path() + ": " + one->front().dataset + " has several columns, should have one");
+}
+
+bool dialect_reader::told_boundary(const particle_group& g) const {
+  const auto rule = boundary_rule::of(told_.boundary_kind);
+  return rule && rule->names_groups() && std::ranges::any_of(rule->values, [&](const std::string& v) {
+           return same_word(v, g.label) || v == std::to_string(g.number());
+         });
+}
+
+/// The groups of a file that match a pattern with at most one *.
+std::vector<particle_group> matching(const hdf5_file& file, std::string_view pattern) {
+  std::vector<particle_group> found;
+  const auto named = [&](const std::string& path, const std::string& label) {
+    particle_group g;
+    g.file = &file;
+    g.path = path;
+    g.label = label;
+    return g;
+  };
+  const std::size_t star = pattern.find('*');
+  if (star == pattern.npos) {
+    if (file.has(std::string(pattern))) found.push_back(named(std::string(pattern), std::string(pattern)));
+    return found;
+  }
+  const std::size_t slash = pattern.rfind('/', star);
+  const std::string parent(slash == pattern.npos ? "" : pattern.substr(0, slash));
+  const std::string_view begins =
+      pattern.substr(slash == pattern.npos ? 0 : slash + 1, star - (slash == pattern.npos ? 0 : slash + 1));
+  const std::string below(pattern.substr(star + 1));
+  for (const std::string& name : file.names(parent)) {
+    const std::string path = (parent.empty() ? "" : parent + "/") + name + below;
+    if (name.starts_with(begins) && file.has(path)) {
+      found.push_back(named(path, name));
+    }
+  }
+  return found;
+}
+
+std::vector<particle_group> dialect_reader::groups_of(const hdf5_file& file) {
+  std::vector<particle_group> all = matching(file, names_.groups), meant;
+  if (names_.meant == groups_meant::last) {
+    std::ranges::sort(all, {}, &particle_group::number);
+    if (told_.step) std::erase_if(all, [&](const particle_group& g) { return g.number() != *told_.step; });
+    if (all.empty()) throw error(file.path() + " has no step " + std::to_string(*told_.step));
+    all.erase(all.begin(), all.end() - 1);
+  }
+  for (particle_group& g : all) locate(g);
+  std::erase_if(all, [](const particle_group& g) { return g.rows == 0; });
+  const auto counts = attribute("", names_.counts);
+  for (particle_group& g : all) {
+    const auto k = static_cast<std::size_t>(g.number());
+    if (&file == &first_ && counts && g.number() >= 0 && k < counts->size() &&
+        (*counts)[k] != static_cast<double>(g.rows))
+      throw error(file.path() + ": " + g.x[0].dataset + " has " + std::to_string(g.rows) +
+                  " rows, but the header counts " + number_text((*counts)[k]));
+    g.boundary = told_boundary(g) ||
+                 (names_.meant == groups_meant::all && told_.boundary_kind.empty() && names_boundary(g.label));
+  }
+  if (names_.meant != groups_meant::first) return all;
+  const bool fluid = std::ranges::any_of(all, [](const particle_group& g) { return g.number() == 0; });
+  const auto others = std::ranges::count_if(all, [](const particle_group& g) { return !g.boundary; });
+  std::string left_out;
+  for (particle_group& g : all) {
+    if (g.boundary || g.number() == 0 || (!fluid && others == 1)) {
+      meant.push_back(g);
+    } else {
+      left_out += (left_out.empty() ? "" : ", ") + std::to_string(g.rows) + " of " + g.label;
+    }
+  }
+  if (meant.empty() && !all.empty())
+    throw error(file.path() + " has no fluid, which is PartType0, but " + left_out +
+                "; --boundary-kind PartType=N takes one as boundary");
+  if (!left_out.empty())
+    content.facts.push_back({"left out", left_out, origin::assumed,
+                             "PartType0 is the fluid; --boundary-kind PartType=N takes another as boundary"});
+  return meant;
+}
+
+void dialect_reader::box(const std::string& group, std::size_t axes_of_file) {
+  auto &low = content.box_low, &high = content.box_high;
+  const auto lows = attribute(group, names_.low), highs = attribute(group, names_.high),
+             limits = attribute(group, names_.limits), edges = attribute(group, names_.edges);
+  if (lows && highs) {
+    low = *lows;
+    high = *highs;
+  } else if (limits && limits->size() == 6) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      low.push_back((*limits)[2 * d]);
+      high.push_back((*limits)[2 * d + 1]);
+    }
+  } else if (edges) {
+    high = edges->size() == 1 ? std::vector<double>(axes_of_file, edges->front()) : *edges;
+    low.assign(high.size(), 0.0);
+  }
+  if (low.size() != high.size() || (!low.empty() && low.size() < axes_of_file && low.size() < 3))
+    throw error(first_.path() + ": the box has " + std::to_string(high.size()) + " edges, should have one or " +
+                std::to_string(axes_of_file));
+  const auto periodic = attribute(group, names_.axes);
+  if (low.empty()) return;
+  axes on = names_.periodic ? axes::all(3) : axes{};
+  if (periodic)
+    for (std::size_t d = 0; d < 3; ++d) on.on[d] = (*periodic)[std::min(d, periodic->size() - 1)] == 1;
+  content.periodic = on;
+}
+
+void dialect_reader::header(std::vector<particle_group>& groups) {
+  const std::string& group = groups.front().path;
+  const auto one = [&](std::string_view alternatives) -> std::optional<double> {
+    const auto found = attribute(group, alternatives);
+    return found ? std::optional(found->front()) : std::nullopt;
+  };
+  content.time = one(names_.time);
+  content.rho0 = one(names_.rho0);
+  content.B = one(names_.B);
+  const std::size_t axes_of_file = groups.front().x.size();
+  if (const auto dim = one(names_.dim)) {
+    if (*dim != 1 && *dim != 2 && *dim != 3)
+      throw error(first_.path() + ": Dimension is " + number_text(*dim) + ", should be 1, 2 or 3");
+    content.dim = static_cast<int>(*dim);
+  }
+  box(group, axes_of_file);
+  const auto masses = attribute(group, names_.masses);
+  const bool column = std::ranges::any_of(groups, [](const particle_group& g) { return !g.m.empty(); });
+  for (particle_group& g : groups) {
+    const auto k = static_cast<std::size_t>(g.number());
+    if (!masses || !g.m.empty() || k >= masses->size() || !((*masses)[k] > 0)) continue;
+    if (column)
+      g.m = {{"", 0, (*masses)[k]}};
+    else
+      (g.boundary ? content.m_of_boundary : content.m_of_all) = (*masses)[k];
+  }
+  const auto support = [&](double s, origin how, const std::string& from) {
+    if (!(s > 0)) throw error(first_.path() + ": " + from + " is " + number_text(s) + ", should be positive");
+    content.support = s;
+    content.facts.push_back({"support", number_text(s) + " h", how, from});
+  };
+  if (const auto H = one(names_.H)) {
+    content.h_of_all = H;
+    return support(1, origin::read, "SupportRadius of the header is H itself");
+  }
+  if (groups.front().h.empty()) return;
+  if (const auto gamma = one(names_.gamma)) return support(*gamma, origin::read, "Kernel gamma");
+  for (const std::string_view f : split(names_.function, '|')) {
+    const std::string object(f.substr(0, f.find('@'))), name(f.substr(f.find('@') + 1));
+    const auto function = first_.has(object) ? first_.text(object, name) : std::nullopt;
+    const double gamma = function ? gamma_of(*function, content.dim.value_or(static_cast<int>(axes_of_file))) : 0;
+    if (gamma > 0) return support(gamma, origin::derived, "the smoothing kernel, " + *function);
+  }
+  if (names_.support > 0)
+    support(names_.support, origin::assumed, "as " + std::string(names_.name) + " writes it; --support says otherwise");
+}
+
+/// Reads a quantity of all groups, one after the other; none if one of them has it not.
+void dialect_reader::quantity(const std::vector<particle_group>& groups, sources particle_group::*which,
+                              const char* what, std::span<std::vector<double>* const> to) {
+  std::size_t rows = 0, columns = to.size(), most = 0;
+  for (const particle_group& g : groups) {
+    rows += g.rows;
+    columns = std::min(columns, (g.*which).size());
+    most = std::max(most, (g.*which).size());
+  }
+  if (columns < most && columns == 0) {
+    content.facts.push_back({what, "not used", origin::assumed, "some groups of the file have none"});
+  } else if (columns < std::min(most, to.size())) {
+    throw error(first_.path() + ": some of its groups have " + std::to_string(columns) + " columns of " + what +
+                ", others " + std::to_string(most));
+  }
+  for (std::size_t k = 0; k < columns; ++k) to[k]->resize(rows);
+  std::size_t begin = 0;
+  for (const particle_group& g : groups) {
+    const sources& all = g.*which;
+    for (std::size_t k = 0; k < columns;) {
+      std::vector<std::size_t> of_dataset;
+      std::vector<double*> places;
+      const std::string& dataset = all[k].dataset;
+      for (; k < columns && all[k].dataset == dataset; ++k) {
+        of_dataset.push_back(all[k].column);
+        places.push_back(to[k]->data() + begin);
+      }
+      if (dataset.empty())
+        std::fill_n(places[0], g.rows, all[0].value);
+      else
+        g.file->read(dataset, of_dataset, places);
+    }
+    begin += g.rows;
+  }
+}
+
+void dialect_reader::columns(const std::vector<particle_group>& groups) {
+  file_content& c = content;
+  const auto three = [](std::array<std::vector<double>, 3>& a) { return std::array{&a[0], &a[1], &a[2]}; };
+  quantity(groups, &particle_group::x, "positions", three(c.x));
+  quantity(groups, &particle_group::v, "velocities", three(c.v));
+  const auto one = [&](sources particle_group::*which, const char* what, std::vector<double>& to) {
+    quantity(groups, which, what, std::array{&to});
+  };
+  one(&particle_group::rho, "density", c.rho);
+  one(&particle_group::m, "mass", c.m);
+  one(&particle_group::h, "h", c.h);
+  if (std::ranges::any_of(groups, [](const particle_group& g) { return !g.other.empty(); }))
+    one(&particle_group::other, "kind", c.others[boundary_rule::of(told_.boundary_kind)->column]);
+  std::vector<double> kinds;
+  one(&particle_group::kind, "kind", kinds);
+  c.kind.resize(c.x[0].size());
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    if (kinds[i] != 0 && kinds[i] != 1)
+      throw error(first_.path() + ": the kind of particle " + std::to_string(i + 1) + " is " + number_text(kinds[i]) +
+                  ", should be 0 (fluid) or 1 (boundary)");
+    c.kind[i] = static_cast<particle_kind>(kinds[i]);
+  }
+  auto at = c.kind.begin();
+  for (const particle_group& g : groups) {
+    const auto end = at + static_cast<std::ptrdiff_t>(g.rows);
+    if (kinds.empty()) std::fill(at, end, g.boundary ? particle_kind::boundary : particle_kind::fluid);
+    at = end;
+  }
+}
+
+/// The dialect of a file. Errors: none.
+const hdf5_dialect& dialect_of(const hdf5_file& file) {
+  const auto marked = [&](const hdf5_dialect& d, const std::string& group) {
+    return d.marks.empty() || std::ranges::any_of(split(d.marks, '|'), [&](std::string_view mark) {
+             const std::size_t at = mark.find('@');
+             if (at == mark.npos) return file.has(std::string(mark));
+             const std::string object = at == 0 ? group : std::string(mark.substr(0, at));
+             return file.has(object) && file.numbers(object, std::string(mark.substr(at + 1))).has_value();
+           });
+  };
+  for (const hdf5_dialect& d : hdf5_dialects())
+    if (const auto groups = matching(file, d.groups); !groups.empty() && marked(d, groups.front().path)) return d;
+  throw error(file.path() +
+              " is HDF5, but has none of the groups PartType0 (GADGET, SWIFT), particles/NAME/arrays (PySPH), Step#0 " +
+              "(H5Part, SPH-EXA) and VTKHDF; `pairsum convert` reads more");
+}
+
+/// The paths of all files of a snapshot whose file k is NAME.k.ENDING.
+std::vector<std::string> siblings(const std::string& path, double count) {
+  const std::size_t ending = path.rfind('.'),
+                    digits = ending == path.npos || ending == 0 ? path.npos : path.rfind('.', ending - 1);
+  const std::string of = path + " is one of " + number_text(count) + " files of a snapshot";
+  if (digits == path.npos || !number_in(path.substr(digits + 1, ending - digits - 1)) || !(count < 100'000))
+    throw error(of + ", but its name has no number, as in NAME.0.hdf5");
+  std::vector<std::string> all;
+  for (int k = 0; k < count; ++k) {
+    all.push_back(path.substr(0, digits + 1) + std::to_string(k) + path.substr(ending));
+    if (access(all.back().c_str(), R_OK) != 0) throw error(of + ", but " + all.back() + " cannot be read");
+  }
+  return all;
+}
+
+file_content read_here(const std::string& path, const hints& told) {
+  std::vector<std::unique_ptr<hdf5_file>> files;
+  files.push_back(std::make_unique<hdf5_file>(path));
+  const hdf5_dialect& names = dialect_of(*files[0]);
+  dialect_reader reader(*files[0], names, told);
+  reader.content.format = "hdf5";
+  reader.content.dialect = names.name;
+  const auto parts = reader.attribute("", names.files);
+  std::vector<particle_group> groups;
+  if (parts && parts->front() > 1) {
+    for (const std::string& part : siblings(path, parts->front())) {
+      files.push_back(std::make_unique<hdf5_file>(part));
+      for (particle_group& g : reader.groups_of(*files.back())) groups.push_back(std::move(g));
+    }
+    reader.content.facts.push_back({"files of the snapshot", number_text(parts->front()), origin::read, "the header"});
+  } else {
+    groups = reader.groups_of(*files[0]);
+  }
+  if (groups.empty()) throw error(path + " has no particles");
+  reader.header(groups);
+  reader.columns(groups);
+  return std::move(reader.content);
+}
+
+bool recognises(std::span<const std::byte> head, std::string_view) {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  for (std::size_t at = 0; at + signature.size() <= head.size(); at = at == 0 ? 512 : 2 * at)
+    if (std::memcmp(head.data() + at, signature.data(), signature.size()) == 0) return true;
+  return false;
+}
+
+file_content read(const std::string& path, const hints& told) {
+  struct stat about {};
+  const auto bytes = stat(path.c_str(), &about) == 0 ? static_cast<std::uint64_t>(about.st_size) : 0;
+  return in_child(path, seconds_for(bytes), [&] { return read_here(path, told); });
+}
+
+}  // namespace
+
+namespace formats_of {
+file_format hdf5();
+file_format hdf5() { return {"hdf5", "HDF5 of GADGET, SWIFT, PySPH, H5Part, SPH-EXA and VTKHDF", recognises, read}; }
+}  // namespace formats_of
+}  // namespace pairsum::files

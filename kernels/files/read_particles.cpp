@@ -1,0 +1,104 @@
+#include <pairsum/files/read_particles.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+#include <pairsum/core/error.hpp>
+#include <pairsum/core/names.hpp>
+#include <pairsum/files/formats.hpp>
+#include <pairsum/files/set_in_making.hpp>
+
+namespace pairsum::files {
+namespace {
+
+constexpr std::size_t most_particles = 0xffffffffu - 1024;
+
+/// Takes ":fluid" or ":boundary" off a path, unless a file is named so.
+std::optional<particle_kind> kind_of_path(std::string& path) {
+  constexpr std::array<std::pair<std::string_view, particle_kind>, 2> endings{
+      {{":fluid", particle_kind::fluid}, {":boundary", particle_kind::boundary}}};
+  for (const auto& [ending, kind] : endings)
+    if (path.ends_with(ending) && access(path.c_str(), F_OK) != 0) {
+      path.resize(path.size() - ending.size());
+      return kind;
+    }
+  return {};
+}
+
+/// Reads a file and checks that its columns belong together.
+one_file read_one(const std::string& path, const hints& told) {
+  one_file f{path, read_file(path, told), 0};
+  file_content& c = f.content;
+  std::vector<std::vector<double>*> columns{&c.x[0], &c.x[1], &c.x[2], &c.v[0], &c.v[1], &c.v[2], &c.rho, &c.m, &c.h};
+  for (auto& [name, column] : c.others) columns.push_back(&column);
+  f.rows = std::max({c.x[0].size(), c.x[1].size(), c.x[2].size()});
+  if (f.rows == 0) throw error(path + " has no particles");
+  for (const auto* const column : columns)
+    if (!column->empty() && column->size() != f.rows)
+      throw error(path + ": a column has " + std::to_string(column->size()) + " rows, positions have " +
+                  std::to_string(f.rows));
+  return f;
+}
+
+}  // namespace
+
+read_set read_particles(const std::vector<std::string>& paths, const hints& told) {
+  if (paths.empty()) throw error("no file of particles is named");
+  set_in_making s{told};
+  std::vector<std::optional<particle_kind>> by_path;
+  std::size_t total = 0;
+  for (std::string path : paths) {
+    by_path.push_back(kind_of_path(path));
+    s.files.push_back(read_one(path, told));
+    const one_file& f = s.files.back();
+    total += f.rows;
+    s.tell("file", path, origin::read,
+           f.content.format + (f.content.dialect.empty() ? "" : ", " + f.content.dialect) + ", " +
+               std::to_string(f.rows) + " particles");
+    for (const fact& one : f.content.facts) s.made.facts.push_back(one);
+  }
+  if (total > most_particles)
+    throw error(s.named() + " hold " + std::to_string(total) + " particles, more than the " +
+                std::to_string(most_particles) + " that pairsum counts");
+  choose_kinds(s, by_path);
+  check_numbers(s);
+  choose_axes(s);
+  complete_columns(s);
+  choose_H(s);
+  gather(s);
+  choose_domain(s);
+  if (const auto time = s.first([](const file_content& c) { return c.time; })) s.made.time = *time;
+  s.made.hash = hash_of(s.made.initial);
+  return std::move(s.made);
+}
+
+std::string hash_of(const initial_condition& c) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  const auto word = [&](std::uint64_t bits) {  // FNV-1a of words, which moves no bit down: so they are shifted
+    hash = (hash ^ bits) * 0x100000001b3u;
+    hash ^= hash >> 32;
+  };
+  const auto column = [&](const std::vector<double>& all) {
+    word(all.size());
+    for (const double a : all) word(std::bit_cast<std::uint64_t>(a));
+  };
+  const particle_table& p = c.particles;
+  for (const auto& all : {std::cref(p.x), std::cref(p.v)})
+    for (const auto& one : all.get()) column(one);
+  column(p.rho);
+  column(p.m);
+  for (const particle_kind k : p.kind) word(static_cast<std::uint64_t>(k));
+  column(c.omega_low);
+  column(c.omega_high);
+  column({c.H, c.eos.rho0, c.eos.B, c.gravity});
+  word(c.periodic);
+  std::string text;
+  for (int digit = 15; digit >= 0; --digit) text += "0123456789abcdef"[hash >> (4 * digit) & 15];
+  return text;
+}
+
+}  // namespace pairsum::files

@@ -1,0 +1,56 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <pairsum/files/read_particles.hpp>
+
+namespace pairsum::files {
+
+/// What one file of a set says.
+struct one_file {
+  std::string path;
+  file_content content;
+  std::size_t rows = 0;
+};
+
+/// A set between its files and what is made of them. The functions below are called in this order.
+struct set_in_making {
+  explicit set_in_making(const hints& options) : told(options) {}
+
+  const hints& told;
+  std::vector<one_file> files;
+  std::vector<std::size_t> axes;  ///< of the files, that become x, y and z
+  read_set made;
+
+  void tell(std::string what, std::string value, origin how, std::string from) {
+    made.facts.push_back({std::move(what), std::move(value), how, std::move(from)});
+  }
+  int dim() const { return static_cast<int>(axes.size()); }
+  /// The first of the files that says it, as `get` finds it in a file's content: an optional.
+  template <class Get>
+  auto first(Get&& get) const -> decltype(get(files[0].content)) {
+    for (const one_file& f : files)
+      if (const auto said = get(f.content)) return said;
+    return {};
+  }
+  /// All paths, or how many.
+  std::string named() const { return files.size() == 1 ? files[0].path : std::to_string(files.size()) + " files"; }
+};
+
+/// Kinds of the particles, as the path, an option or the file says, in this order.
+void choose_kinds(set_in_making& s, const std::vector<std::optional<particle_kind>>& by_path);
+/// Throws pairsum::error unless all numbers are finite, and densities, masses and lengths positive. A column of zeros
+/// is none.
+void check_numbers(set_in_making& s);
+/// Which axes vary, or are asked for.
+void choose_axes(set_in_making& s);
+/// Density, mass, velocity and equation of state, spacing.
+void complete_columns(set_in_making& s);
+/// The support radius.
+void choose_H(set_in_making& s);
+/// Moves the columns to the table: fluid first.
+void gather(set_in_making& s);
+/// The box, its periodic axes, and positions into it.
+void choose_domain(set_in_making& s);
+
+}  // namespace pairsum::files
