@@ -54,7 +54,7 @@ run_request in_dimension(int dim, const run_request& asked, const verify_options
 /// Of the M that nobody asked for, a periodic box has those whose torus closes where it does. Which these are depends
 /// on a backend's skin: returns the request in parts, of backends that take the same M.
 std::vector<run_request> parts_with_M_that_fit(const run_request& q, const initial_condition& c) {
-  if (!c.periodic) return {q};
+  if (!c.periodic.any()) return {q};
   std::map<std::vector<int>, std::vector<std::string>> backends;
   for (const std::string& b : q.backends) {
     std::vector<int> fitting = q.M;

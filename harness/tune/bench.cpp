@@ -22,7 +22,7 @@ tune_bench::tune_bench(const tune_request& r, const point& any, const registry& 
     : request_(r), all_(all), binding_(r.binding), particles_(r.levels, any) {}
 
 void tune_bench::leave_out_M_that_do_not_fit(std::vector<point>& points) const {
-  if (!particles_.initial.periodic) return;
+  if (!particles_.initial.periodic.any()) return;
   std::erase_if(points, [&](const point& p) { return p.M > 0 && !M_fits(p.M, p.backend, particles_.initial, all_); });
   if (points.empty())
     throw error("none of the M that are tried goes round the periodic box: name some with --M, or another --grid");

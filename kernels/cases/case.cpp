@@ -53,7 +53,7 @@ void perturb(initial_condition& c, double dx, std::uint64_t seed) {
     for (int d = 0; d < p.dim; ++d) {
       const std::uint64_t at = 3 * i + static_cast<std::uint64_t>(d);
       p.x[d][i] += dx * (-0.3 + jitter.uniform(at, -0.05, 0.05));
-      if (c.periodic) p.x[d][i] = omega.wrapped(d, p.x[d][i]);
+      if (c.periodic[d]) p.x[d][i] = omega.wrapped(d, p.x[d][i]);
       p.v[d][i] = velocity.uniform(at, -v_max, v_max);
     }
     p.rho[i] *= density.uniform(i, 0.99, 1.01);

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include <pairsum/core/axes.hpp>
 #include <pairsum/eos/tait.hpp>
 #include <pairsum/particles/particle_table.hpp>
 
@@ -21,9 +22,9 @@ struct case_parameters {
 struct initial_condition {
   particle_table particles;
   std::vector<double> omega_low, omega_high;  ///< m
-  bool periodic = false;                      ///< along every axis
-  double H = 0;                               ///< m
-  double gravity = 9.81;                      ///< m/s2, along -y (along -x in 1D)
+  axes periodic = {};
+  double H = 0;           ///< m
+  double gravity = 9.81;  ///< m/s2, along -y (along -x in 1D)
   tait eos;
 };
 

@@ -15,7 +15,7 @@ struct periodic_lattice {
       throw error(std::string(name) + " is 1 m wide and periodic, for which H may be up to 0.25 m, is " +
                   number_text(H));
     initial_condition made = unit_lattice(name, c);
-    made.periodic = true;
+    made.periodic = axes::all(c.dim);
     return made;
   }
 };

@@ -7,19 +7,22 @@
 
 namespace pairsum {
 
-/// The displacement between two points of Omega. In a periodic box it is the minimum image: the shortest of the
+/// The displacement between two points of Omega. Along periodic axes it is the minimum image: the shortest of the
 /// displacements through and not through the faces. All code uses this one expression. x_i - x_j and x_j - x_i are
 /// equal to the last bit but for the sign, so i and j agree on whether they interact.
 template <int D, class R>
 struct torus {
-  bool periodic = false;
-  vec<D, R> edge = vec<D, R>::Zero(), half = edge;  ///< m; of a periodic box
+  bool periodic = false;                            ///< along any axis
+  vec<D, R> edge = vec<D, R>::Zero(), half = edge;  ///< m; 0 along open axes, whose displacements stay as they are
   vec<D, R> inner_low = edge, inner_high = edge;    ///< neighbours of points between these lie inside of the faces
 
   torus() = default;
-  torus(const box<D, R>& omega, R H) : periodic(omega.periodic) {
+  torus(const box<D, R>& omega, R H) : periodic(omega.periodic.any()) {
     constexpr R u = std::numeric_limits<R>::epsilon();
     for (int d = 0; d < D; ++d) {
+      inner_high[d] = std::numeric_limits<R>::infinity();
+      inner_low[d] = -inner_high[d];
+      if (!omega.periodic[d]) continue;
       edge[d] = omega.edge(d);
       half[d] = edge[d] / 2;
       // Wider than H by what rounding can do to a difference.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include <pairsum/core/axes.hpp>
 #include <pairsum/core/value.hpp>
 
 namespace pairsum {
@@ -28,15 +29,16 @@ inline T norm2(const vec<D, T>& r) {
 /// Flops of a distance test in D dimensions: x_i - x_j, norm2, the comparison. A fused multiply-add counts 2.
 constexpr int distance_test_flops(int D) { return D + (2 * D - 1) + 1; }
 
-/// A closed axis-parallel cuboid [low, high]; the Omega of the talk. Units: m. If it is periodic, what leaves through a
-/// face comes back through the opposite one, and a point of a high face is one of the low face.
+/// A closed axis-parallel cuboid [low, high]; the Omega of the talk. Units: m. Along a periodic axis, what leaves
+/// through a face comes back through the opposite one, and a point of the high face is one of the low face.
 template <int D, class R>
 struct box {
   vec<D, R> low, high;
-  bool periodic = false;
+  axes periodic = {};
 
   R edge(int d) const { return high[d] - low[d]; }
-  /// Of a periodic box: component d of a point, moved by whole edges into [low, high). A NaN for what is not finite.
+  /// Along a periodic axis: component d of a point, moved by whole edges into [low, high). A NaN for what is not
+  /// finite.
   R wrapped(int d, R x) const {
     if (x >= low[d] && x < high[d]) return x;
     R from_low = std::fmod(x - low[d], edge(d));

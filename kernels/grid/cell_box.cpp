@@ -97,36 +97,33 @@ cell_box<D> occupied_box(const particle_set<D, R>& p, std::size_t begin, std::si
 template <int D, class R>
 cell_box<D> box_follower<D, R>::fit(const particle_set<D, R>& p, std::size_t moved, const box<D, R>& omega,
                                     const cell_scale<D, R>& scale, const team& t) {
+  const auto with_periodic_axes = [&](cell_box<D> b) {
+    for (int d = 0; d < D; ++d)
+      if (scale.period[d] > 0) b.low[d] = 0, b.high[d] = scale.period[d] - 1;
+    return b;
+  };
+  if (std::ranges::count(scale.period, 0) == 0) return with_periodic_axes({});
   if (moved != rest_begin_ || moved == p.size()) {
     rest_ = occupied_box(p, moved, p.size(), omega, scale, t);
     rest_begin_ = moved;
   }
-  return rest_.with(occupied_box(p, 0, moved, omega, scale, t));
+  return with_periodic_axes(rest_.with(occupied_box(p, 0, moved, omega, scale, t)));
 }
 
 template <int D>
-linear_cells<D>::linear_cells(const cell_box<D>& b) {
+linear_cells<D>::linear_cells(const cell_box<D>& b, const ivec<D>& period) {
   for (int d = 0; d < D; ++d) {
-    origin_[d] = b.low[d] - 1;
+    const std::int64_t around = period[d] > 0 ? 0 : 1;
+    origin_[d] = b.low[d] - around;
     stride_[d] = static_cast<std::uint32_t>(size_);
-    size_ *= static_cast<std::size_t>(b.edge(d) + 2);
+    size_ *= static_cast<std::size_t>(b.edge(d) + 2 * around);
   }
 }
 
 template <int D>
-linear_cells<D> linear_cells<D>::of_torus(const ivec<D>& period) {
-  linear_cells c;
-  for (int d = 0; d < D; ++d) {
-    c.stride_[d] = static_cast<std::uint32_t>(c.size_);
-    c.size_ *= static_cast<std::size_t>(period[d]);
-  }
-  return c;
-}
-
-template <int D>
-double linear_cells<D>::numbers(const cell_box<D>& b) {
+double linear_cells<D>::numbers(const cell_box<D>& b, const ivec<D>& period) {
   double n = 1;
-  for (int d = 0; d < D; ++d) n *= static_cast<double>(b.edge(d) + 2);
+  for (int d = 0; d < D; ++d) n *= static_cast<double>(b.edge(d) + (period[d] > 0 ? 0 : 2));
   return n;
 }
 

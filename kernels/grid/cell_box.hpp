@@ -36,7 +36,8 @@ template <int D, class R>
 cell_box<D> occupied_box(const particle_set<D, R>& p, std::size_t begin, std::size_t end, const box<D, R>& omega,
                          const cell_scale<D, R>& scale, const team& t);
 
-/// The box around all of them from step to step; tests again only those that may have moved.
+/// The box around all of them from step to step, which has all cells of a periodic axis; tests again only those that
+/// may have moved.
 template <int D, class R>
 class box_follower {
  public:
@@ -50,19 +51,19 @@ class box_follower {
 };
 
 /// Numbers the cells of a box, x fastest, with an empty cell around: so the 3^D cells around any cell of the box have
-/// numbers of their own, and no number wraps around an edge. Or the cells of a torus, without empty ones around.
+/// numbers of their own, and no number wraps around an edge. There are no empty ones along an axis that closes on
+/// itself.
 template <int D>
 class linear_cells {
  public:
   static constexpr std::size_t most = std::size_t{1} << 30;  ///< numbers, so that they leave 2 bits for the kind
 
   linear_cells() = default;
-  explicit linear_cells(const cell_box<D>& b);
-  /// Of a torus of so many cells along each axis, at most 2^30.
-  static linear_cells of_torus(const ivec<D>& period);
+  /// `period`: see cell_scale; at most 2^30 numbers.
+  linear_cells(const cell_box<D>& b, const ivec<D>& period);
 
   /// How many numbers a box takes, those around it included.
-  static double numbers(const cell_box<D>& b);
+  static double numbers(const cell_box<D>& b, const ivec<D>& period);
 
   std::size_t size() const { return size_; }
   int bits() const;  ///< numbers are below 2^bits
@@ -76,9 +77,11 @@ class linear_cells {
   ivec<D> place(std::uint32_t number) const;
   std::uint32_t number(const ivec<D>& at) const {
     std::uint32_t n = 0;
-    for (int d = 0; d < D; ++d) n += static_cast<std::uint32_t>(at[d] - origin_[d]) * stride_[d];
+    for (int d = 0; d < D; ++d) n += part(d, at[d]);
     return n;
   }
+  /// What coordinate a along axis d adds to a cell's number.
+  std::uint32_t part(int d, std::int64_t a) const { return static_cast<std::uint32_t>(a - origin_[d]) * stride_[d]; }
 
  private:
   std::array<std::uint32_t, D> stride_{};

@@ -12,19 +12,19 @@ namespace pairsum {
 /// (subtraction, reciprocal, product; u = half the machine epsilon), so two of them differ from the exact difference by
 /// at most 6u t_max; a computed r < H means an exact distance below H (1 + 4u) per component. Hence w >= H (1 + 4u + 6u
 /// t_max), doubled for safety. t_max is Omega's largest edge in units of H, however large: cells grow with it, so that
-/// no coordinate ever exceeds 1/(12u) (1.4e6 in float, 7.5e14 in double) and every one is resolved. In a periodic box a
-/// difference as large as the edge is rounded before the edge is taken off, and coordinates begin again where 3u t_max
-/// may be missing: 10u t_max in all, for which there is twice as much again.
+/// no coordinate ever exceeds 1/(12u) (1.4e6 in float, 7.5e14 in double) and every one is resolved. Along a periodic
+/// axis a difference as large as the edge is rounded before the edge is taken off, and coordinates begin again where 3u
+/// t_max may be missing: 10u t_max in all, for which there is twice as much again.
 template <int D, class R>
 R safe_width(const box<D, R>& omega, R H) {
   const R u = std::numeric_limits<R>::epsilon() / 2;
   R t_max = 0;
   for (int d = 0; d < D; ++d) t_max = std::max(t_max, (omega.high[d] - omega.low[d]) / H);
-  return H * (1 + 8 * u + (omega.periodic ? 24 : 12) * u * t_max);
+  return H * (1 + 8 * u + (omega.periodic.any() ? 24 : 12) * u * t_max);
 }
 
-/// The number of cells of a periodic box along each axis: as many as are no narrower than is safe, a multiple of
-/// `multiple` (an even number), 0 where 4 do not fit.
+/// The number of cells along each periodic axis: as many as are no narrower than is safe, a multiple of `multiple` (an
+/// even number), 0 where 4 do not fit. 0 along the others.
 ///
 /// H alone is safe where coordinates are exact: H a power of two and the low face at 0. Then x/H has no rounding, and
 /// differences of H or more, also less an edge of whole H, are never rounded to less.
@@ -33,8 +33,9 @@ ivec<D> torus_cells(const box<D, R>& omega, R H, std::int64_t multiple) {
   int exponent = 0;
   const bool exact_inverse = std::frexp(H, &exponent) == R(0.5);
   const R safe = safe_width(omega, H);
-  ivec<D> n;
+  ivec<D> n{};
   for (int d = 0; d < D; ++d) {
+    if (!omega.periodic[d]) continue;
     const R edge = omega.edge(d), reaches = edge / H;
     const auto whole = static_cast<std::int64_t>(std::min(reaches, R(0x1p62)));
     if (exact_inverse && omega.low[d] == 0 && reaches == static_cast<R>(whole) && whole % multiple == 0 &&
@@ -59,11 +60,11 @@ bool resolves(const box<D, R>& omega, R H) {
 }
 
 /// Turns positions into cell coordinates floor((x-A)/w), w being the safe width, or what makes whole cells of a
-/// periodic box. Every grid numbers cells with this one expression, so that they put particles into the same cells.
+/// periodic axis. Every grid numbers cells with this one expression, so that they put particles into the same cells.
 template <int D, class R>
 struct cell_scale {
   vec<D, R> low;     ///< A, m
-  ivec<D> period{};  ///< cells of a periodic box; else 0
+  ivec<D> period{};  ///< cells of a periodic axis; else 0
   vec<D, R> w, inv_w;
   vec<D, R> limit;     ///< coordinates are below it
   bool narrow = true;  ///< do the coordinates of all of Omega fit 32 bits? Those convert several at a time.

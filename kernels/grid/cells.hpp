@@ -15,6 +15,11 @@ struct index_range {
   bool empty() const { return begin == end; }
 };
 
+/// Coordinate a, from -1 to `period`, of an axis that closes on itself after so many cells; a where it does not (0).
+constexpr std::int64_t turned(std::int64_t a, std::int64_t period) {
+  return period == 0 ? a : a < 0 ? a + period : a < period ? a : a - period;
+}
+
 /// The particles of one cell, in the sorted particle set.
 struct cell_range {
   index_range fluid{0, 0}, boundary{0, 0};

@@ -17,9 +17,8 @@ compact_grid<D, R>::compact_grid(const box<D, R>& omega, R H)
 
 template <int D, class R>
 bool compact_grid<D, R>::adapt(const particle_set<D, R>& p, std::size_t moved, const team& t) {
-  if (omega_.periodic) return adapt_torus(p, moved, t);
   const cell_box<D> now = follower_.fit(p, moved, omega_, scale_, t);
-  const bool listed = linear_cells<D>::numbers(now) > static_cast<double>(linear_cells<D>::most);
+  const bool listed = linear_cells<D>::numbers(now, scale_.period) > static_cast<double>(linear_cells<D>::most);
   bool changed = std::exchange(first_, false) || listed != listed_;
   listed_ = listed;
   if (listed) {
@@ -28,23 +27,9 @@ bool compact_grid<D, R>::adapt(const particle_set<D, R>& p, std::size_t moved, c
   } else if (changed || now != box_) {
     changed = true;
     list_ = {};
-    linear_ = linear_cells<D>(now);
+    linear_ = linear_cells<D>(now, scale_.period);
   }
   box_ = now;
-  return changed;
-}
-
-/// A torus does not follow the particles; its list does.
-template <int D, class R>
-bool compact_grid<D, R>::adapt_torus(const particle_set<D, R>& p, std::size_t moved, const team& t) {
-  bool changed = std::exchange(first_, false);
-  if (changed) {
-    double cells = 1;
-    for (const std::int64_t n : scale_.period) cells *= static_cast<double>(n);
-    listed_ = cells > static_cast<double>(linear_cells<D>::most);
-    if (!listed_) linear_ = linear_cells<D>::of_torus(scale_.period);
-  }
-  if (listed_) changed |= list_.fit(p, moved, omega_, scale_, t);
   return changed;
 }
 
@@ -85,7 +70,7 @@ void compact_grid<D, R>::connect_numbers(std::span<const std::uint32_t> cell_key
   t.for_pieces(c.fluid_cells, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t cell = begin + 1; cell <= end; ++cell) c.set_place(cell, linear_.place(cell_keys[cell]));
   });
-  if (omega_.periodic)
+  if (omega_.periodic.any())
     return connect_sorted_torus<D, std::uint32_t>(scale_.period, keys_, number_, c, t,
                                                   [&](const ivec<D>& at) { return linear_.number(at); });
   connect_sorted<D, std::uint32_t>(
@@ -100,7 +85,7 @@ void compact_grid<D, R>::connect_list(std::span<const std::uint32_t> cell_keys, 
   t.for_pieces(c.fluid_cells, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t cell = begin + 1; cell <= end; ++cell) c.set_place(cell, at(cell).c);
   });
-  if (omega_.periodic)
+  if (omega_.periodic.any())
     return connect_sorted_torus<D, cell_place<D>>(scale_.period, places, number_, c, t,
                                                   [](const ivec<D>& at) { return cell_place<D>{at}; });
   connect_sorted<D, cell_place<D>>(places, number_, c, t, at, [](cell_place<D> place, int dx, unsigned row) {

@@ -12,8 +12,8 @@ namespace pairsum {
 /// two cells fold together. Neighbours are found in the sorted list of cells, so neither time nor memory depends on how
 /// large the domain is.
 ///
-/// A cell's key is its number in the box around the particles, or in the periodic box, while that has at most 2^30
-/// cells, else its rank in the list; both ascend alike, so the order of the particles is the same.
+/// A cell's key is its number in the box around the particles, which has all cells of a periodic axis, while there are
+/// at most 2^30, else its rank in the list; both ascend alike, so the order of the particles is the same.
 template <int D, class R>
 class compact_grid final : public grid<D, R> {
  public:
@@ -36,7 +36,6 @@ class compact_grid final : public grid<D, R> {
  private:
   void connect_numbers(std::span<const std::uint32_t> cell_keys, cells<D>& c, const team& t);
   void connect_list(std::span<const std::uint32_t> cell_keys, cells<D>& c, const team& t);
-  bool adapt_torus(const particle_set<D, R>& p, std::size_t moved, const team& t);
 
   box<D, R> omega_;
   cell_scale<D, R> scale_;

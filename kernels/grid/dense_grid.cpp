@@ -17,19 +17,15 @@ dense_grid<D, R>::dense_grid(const box<D, R>& omega, R H) : omega_(omega), scale
 
 template <int D, class R>
 bool dense_grid<D, R>::adapt(const particle_set<D, R>& p, std::size_t moved, const team& t) {
-  cell_box<D> now;
-  if (omega_.periodic)
-    for (int d = 0; d < D; ++d) now.low[d] = 0, now.high[d] = scale_.period[d] - 1;
-  else
-    now = follower_.fit(p, moved, omega_, scale_, t);
+  const cell_box<D> now = follower_.fit(p, moved, omega_, scale_, t);
   if (table_.size() > 0 && now == box_) return false;
-  const double wanted = omega_.periodic ? now.cells() : linear_cells<D>::numbers(now);
+  const double wanted = linear_cells<D>::numbers(now, scale_.period);
   if (wanted > static_cast<double>(linear_cells<D>::most))
     throw error("dense_grid would need " + number_text(wanted) + " cells (" + number_text(wanted * 4) +
                 " bytes) for the " + now.text() + " cells of width " + number_text(static_cast<double>(scale_.w[0])) +
-                (omega_.periodic ? " m of the periodic box" : " m around the particles") +
+                (omega_.periodic == axes::all(D) ? " m of the periodic box" : " m around the particles") +
                 ", at most 2^30 are possible; compact_grid works for any extent");
-  const linear_cells<D> numbering = omega_.periodic ? linear_cells<D>::of_torus(scale_.period) : linear_cells<D>(now);
+  const linear_cells<D> numbering(now, scale_.period);
   if (table_.size() < numbering.size())
     table_ = cell_table(zero_table(numbering.size(),
                                    ("dense_grid's table of " + std::to_string(numbering.size()) + " cells").c_str(),
@@ -44,10 +40,10 @@ void dense_grid<D, R>::connect(std::span<const std::uint32_t> cell_keys, cells<D
   table_.set(cell_keys, t);
   constexpr unsigned stencil = cells<D>::stencil;
   c.resize_fluid();
-  if (omega_.periodic)
+  if (omega_.periodic.any())
     return connect_torus<D>(
         scale_.period, table_.data(), c, t, [&](std::size_t cell) { return linear_.place(cell_keys[cell]); },
-        [&](int d, std::int64_t a) { return static_cast<std::uint32_t>(a) * linear_.stride(d); });
+        [&](int d, std::int64_t a) { return linear_.part(d, a); });
   std::array<std::uint32_t, stencil> step{};  // from a cell's number to that of its neighbour, modulo 2^32
   for (unsigned n = 0; n < stencil; ++n)
     for (unsigned d = 0, code = n; d < D; ++d, code /= 3)

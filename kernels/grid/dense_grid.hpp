@@ -10,7 +10,7 @@ namespace pairsum {
 /// A grid of all cells of the smallest box around the particles, as wide as those of the hashed grid and numbered x
 /// fastest; no two cells fold together. The box follows the particles from step to step. A table over its cells finds
 /// neighbours; only what is used of it takes memory, and a step costs only the cells that hold particles. Of a periodic
-/// box it has all cells.
+/// axis it has all cells.
 template <int D, class R>
 class dense_grid final : public grid<D, R> {
  public:

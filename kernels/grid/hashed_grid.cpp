@@ -24,15 +24,13 @@ hashed_grid<D, R>::hashed_grid(const box<D, R>& omega, R H, int M)
       M_(M),
       table_(zero_table(std::size_t{1} << (D * M_), "the hashed grid")) {}
 
-/// A periodic box must close where the torus does.
+/// A periodic axis must close where the torus does.
 template <int D, class R>
 ivec<D> hashed_grid<D, R>::cells_round(const box<D, R>& omega, R H, int M) {
-  if (!omega.periodic) return {};
-  const ivec<D> n = torus_cells(omega, H, std::int64_t{1} << M);
-  if (std::ranges::find(n, 0) == n.end()) return n;
+  const auto fits = [&](int m) { return goes_round(omega, H, std::int64_t{1} << m); };
+  if (fits(M)) return torus_cells(omega, H, std::int64_t{1} << M);
   check_periodic(omega, H);
   int most = 2;
-  const auto fits = [&](int m) { return std::ranges::count(torus_cells(omega, H, std::int64_t{1} << m), 0) == 0; };
   while (most < M && fits(most + 1)) ++most;
   throw error(
       "a hashed grid with M = " + std::to_string(M) + " does not fit the periodic box of " + edges_text(omega, H) +

@@ -11,8 +11,8 @@ namespace pairsum {
 int check_hash_size(int D, int M);
 
 /// The talk's hashed grid: cell I = floor((x-A)/w) per component, folded to I mod 2^M, a torus of 2^(dM) cells.
-/// Particles of cells that fold together share a cell; the distance test tells them apart. A periodic box has a
-/// multiple of 2^M cells along each axis, so that the torus closes where the box does.
+/// Particles of cells that fold together share a cell; the distance test tells them apart. A periodic axis has a
+/// multiple of 2^M cells, so that the torus closes where the axis does.
 template <int D, class R>
 class hashed_grid final : public grid<D, R> {
  public:

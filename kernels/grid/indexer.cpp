@@ -19,7 +19,7 @@ void indexer<D, R>::build(particle_set<D, R>& p, const team& t) {
   lost_ = 0;
   const bool all = !known_ || keys_.size() != p.size();
   known_ = false;  // until this build has come to its end
-  if (omega_.periodic) bring_back(p, all ? p.size() : fluid_, t);
+  if (omega_.periodic.any()) bring_back(p, all ? p.size() : fluid_, t);
   const bool renumbered = grid_->adapt(p, all ? p.size() : fluid_, t);
   bool boundary_kept = false;
   if (all || renumbered) {
@@ -48,11 +48,12 @@ void indexer<D, R>::build(particle_set<D, R>& p, const team& t) {
   known_ = true;
 }
 
-/// Moves the first `end` particles into [low, high) of a periodic Omega.
+/// Moves the first `end` particles into [low, high) along the periodic axes.
 template <int D, class R>
 void indexer<D, R>::bring_back(particle_set<D, R>& p, std::size_t end, const team& t) const {
   t.for_pieces(end, [&](std::size_t first, std::size_t last, std::size_t) {
     for (int d = 0; d < D; ++d) {
+      if (!omega_.periodic[d]) continue;
       R* const x = p.x[d].data();
       for (std::size_t i = first; i < last; ++i)
         if (!(x[i] >= omega_.low[d] && x[i] < omega_.high[d])) [[unlikely]]
@@ -61,11 +62,12 @@ void indexer<D, R>::bring_back(particle_set<D, R>& p, std::size_t end, const tea
   });
 }
 
-/// Are particles begin..end in Omega?
+/// Are particles begin..end in Omega, or between its faces along these axes alone?
 template <int D, class R>
-bool indexer<D, R>::inside(const particle_set<D, R>& p, std::size_t begin, std::size_t end) const {
+bool indexer<D, R>::inside(const particle_set<D, R>& p, std::size_t begin, std::size_t end, const axes& along) const {
   unsigned out = 0;
   for (int d = 0; d < D; ++d) {
+    if (!along[d]) continue;
     const R* const x = p.x[d].data();
     const R low = omega_.low[d], high = omega_.high[d];
     for (std::size_t i = begin; i < end; ++i) out |= !(unsigned(x[i] >= low) & unsigned(x[i] <= high));
@@ -76,10 +78,12 @@ bool indexer<D, R>::inside(const particle_set<D, R>& p, std::size_t begin, std::
 template <int D, class R>
 bool indexer<D, R>::holds(const particle_set<D, R>& p, const team& t) const {
   if (!known_ || keys_.size() != p.size()) return false;
-  if (omega_.periodic) return true;
+  axes open;
+  for (int d = 0; d < D; ++d) open.on[static_cast<std::size_t>(d)] = !omega_.periodic[d];
+  if (!open.any()) return true;
   std::vector<std::uint8_t> in(static_cast<std::size_t>(t.threads()), 1);
   t.for_pieces(fluid_,
-               [&](std::size_t begin, std::size_t end, std::size_t piece) { in[piece] = inside(p, begin, end); });
+               [&](std::size_t begin, std::size_t end, std::size_t piece) { in[piece] = inside(p, begin, end, open); });
   return std::ranges::count(in, 0) == 0;
 }
 

@@ -22,7 +22,7 @@ class indexer {
  public:
   indexer(const box<D, R>& omega, std::unique_ptr<grid<D, R>> g) : omega_(omega), grid_(std::move(g)) {}
 
-  /// Particles that are outside Omega (or NaN) become `lost`; in a periodic box they re-enter through the opposite
+  /// Particles that are outside Omega (or NaN) become `lost`; along a periodic axis they re-enter through the opposite
   /// face, and only positions that are not finite are lost. From build to build the particles stay in their order and
   /// boundary where it is; else call forget() in between.
   void build(particle_set<D, R>& p, const team& t);
@@ -30,8 +30,8 @@ class indexer {
   /// Other particles come, or boundary was moved: the next build looks at all of them.
   void forget() { known_ = false; }
 
-  /// Are the particles, as far as is known, those of the last build, and is all fluid still in Omega, unless
-  /// that is periodic?
+  /// Are the particles, as far as is known, those of the last build, and is all fluid still in Omega along
+  /// the axes that are not periodic?
   bool holds(const particle_set<D, R>& p, const team& t) const;
 
   const cells<D>& view() const { return ranges_.view(); }
@@ -45,7 +45,7 @@ class indexer {
   void find_movers(particle_set<D, R>& p, const team& t);
   void sort(particle_set<D, R>& p, const team& t);
   bool ascending(std::size_t begin, std::size_t end, const team& t) const;
-  bool inside(const particle_set<D, R>& p, std::size_t begin, std::size_t end) const;
+  bool inside(const particle_set<D, R>& p, std::size_t begin, std::size_t end, const axes& along = axes::all(D)) const;
   void keys_of(particle_set<D, R>& p, std::size_t begin, std::size_t end, std::uint32_t* out, std::size_t& lost) const;
 
   box<D, R> omega_;

@@ -34,16 +34,23 @@ std::string edges_text(const box<D, R>& omega, R H) {
   return text;
 }
 
-/// Throws pairsum::error if fewer than 4 cells fit along an axis of a periodic box; else returns how many.
+/// Do cells of support radius H go round every periodic axis? See torus_cells().
+template <int D, class R>
+bool goes_round(const box<D, R>& omega, R H, std::int64_t multiple) {
+  const ivec<D> n = torus_cells(omega, H, multiple);
+  bool all = true;
+  for (int d = 0; d < D; ++d) all = all && (n[d] > 0 || !omega.periodic[d]);
+  return all;
+}
+
+/// Throws pairsum::error if fewer than 4 cells fit along a periodic axis; else returns how many, 0 along the others.
 template <int D, class R>
 ivec<D> check_periodic(const box<D, R>& omega, R H) {
-  if (!omega.periodic) return {};
-  const ivec<D> n = torus_cells(omega, H, 2);
-  if (std::ranges::find(n, 0) == n.end()) return n;
+  if (goes_round(omega, H, 2)) return torus_cells(omega, H, 2);
   R quarter = H, fits = H;
-  for (int d = 0; d < D; ++d) quarter = std::min(quarter, omega.edge(d) / 4);
-  for (R less = std::numeric_limits<R>::epsilon(); std::ranges::count(torus_cells(omega, fits, 2), 0) > 0; less *= 2)
-    fits = quarter * (1 - less);
+  for (int d = 0; d < D; ++d)
+    if (omega.periodic[d]) quarter = std::min(quarter, omega.edge(d) / 4);
+  for (R less = std::numeric_limits<R>::epsilon(); !goes_round(omega, fits, 2); less *= 2) fits = quarter * (1 - less);
   throw error("the periodic box of " + edges_text(omega, H) +
               " support radii is too small: 4 cells must fit along each " +
               "axis, each as wide as the support radius and what rounding takes; one of " +

@@ -40,16 +40,16 @@ void connect_sorted(std::span<const Place> sorted, std::span<const std::uint32_t
   });
 }
 
-/// The same for a torus of `period` cells, places of the fluid cells being set: place(at) is what the cell with
-/// coordinates `at` is in `sorted`. Rows that do not go through a face ascend as in connect_sorted(), but when a
-/// pointer jumps back to the first cells it starts again; cells of the others are looked up one by one.
+/// The same where axes with a `period` close on themselves after so many cells, places of the fluid cells being set:
+/// place(at) is what the cell with coordinates `at` is in `sorted`. Rows that do not go through a face ascend as in
+/// connect_sorted(), but when a pointer jumps back to the first cells it starts again; cells of the others are looked
+/// up one by one.
 template <int D, class Place, class Make>
 void connect_sorted_torus(const ivec<D>& period, std::span<const Place> sorted, std::span<const std::uint32_t> number,
                           cells<D>& c, const team& t, Make&& place) {
   constexpr unsigned stencil = cells<D>::stencil, rows = stencil / 3;
   constexpr std::size_t leap = 16;
   c.period = period;
-  const auto turned = [&](int d, std::int64_t a) { return a < 0 ? a + period[d] : a < period[d] ? a : a - period[d]; };
   const auto search = [&](std::size_t from, const Place& p) {
     return static_cast<std::size_t>(
         std::lower_bound(sorted.begin() + static_cast<std::ptrdiff_t>(from), sorted.end(), p) - sorted.begin());
@@ -60,11 +60,11 @@ void connect_sorted_torus(const ivec<D>& period, std::span<const Place> sorted, 
       for (unsigned row = 0; row < rows; ++row) {
         ivec<D> at = c.place[cell];
         for (unsigned d = 1, code = row; d < D; ++d, code /= 3)
-          at[d] = turned(static_cast<int>(d), at[d] + static_cast<std::int64_t>(code % 3) - 1);
+          at[d] = turned(at[d] + static_cast<std::int64_t>(code % 3) - 1, period[d]);
         const std::int64_t x = at[0];
         std::size_t k = finger[row];
         for (int dx = -1; dx <= 1; ++dx) {
-          at[0] = turned(0, x + dx);
+          at[0] = turned(x + dx, period[0]);
           const Place wanted = place(at);
           const bool ahead = k == 0 || sorted[k - 1] < wanted;
           if (!ahead || (k + leap < sorted.size() && sorted[k + leap] < wanted)) k = search(ahead ? k : 0, wanted);

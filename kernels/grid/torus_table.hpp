@@ -6,7 +6,7 @@
 
 namespace pairsum {
 
-/// Positions and neighbours of the fluid cells of a grid of `period` cells per axis that closes on itself: place_of(c)
+/// Positions and neighbours of the fluid cells of a grid that closes on itself along axes with a `period`: place_of(c)
 /// is where fluid cell c is, part(d, a) what coordinate a along axis d adds to a cell's key, table[key] the cell.
 template <int D, class Place, class Part>
 void connect_torus(const ivec<D>& period, const std::uint32_t* table, cells<D>& c, const team& t, Place&& place_of,
@@ -19,9 +19,9 @@ void connect_torus(const ivec<D>& period, const std::uint32_t* table, cells<D>& 
       c.set_place(cell, at);
       std::array<std::array<std::uint32_t, 3>, D> parts;  // of the left, own and right coordinate of each axis
       for (int d = 0; d < D; ++d) {
-        parts[d][0] = part(d, at[d] > 0 ? at[d] - 1 : period[d] - 1);
+        parts[d][0] = part(d, turned(at[d] - 1, period[d]));
         parts[d][1] = part(d, at[d]);
-        parts[d][2] = part(d, at[d] + 1 < period[d] ? at[d] + 1 : 0);
+        parts[d][2] = part(d, turned(at[d] + 1, period[d]));
       }
       for (unsigned n = 0; n < stencil; ++n) {
         std::uint32_t key = 0;

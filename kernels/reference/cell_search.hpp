@@ -17,11 +17,14 @@ template <int D, class R>
 struct cell_search_of {
   std::vector<std::pair<std::array<std::int64_t, D>, std::uint32_t>> sorted;  // (z, y, x), particle
   std::array<double, D> inverse_width, low{};
-  std::array<std::int64_t, D> period{};  // (z, y, x), of a periodic box
+  std::array<std::int64_t, D> period{};  // (z, y, x); 0 along open axes
+  bool closes;                           // along any axis
 
-  cell_search_of(const std::vector<vec<D, R>>& x, const std::vector<particle_kind>& kind, R H, const box<D, R>& omega) {
+  cell_search_of(const std::vector<vec<D, R>>& x, const std::vector<particle_kind>& kind, R H, const box<D, R>& omega)
+      : closes(omega.periodic.any()) {
     inverse_width.fill(1 / (1.01 * static_cast<double>(H)));
-    for (int d = 0; d < D && omega.periodic; ++d) {
+    for (int d = 0; d < D; ++d) {
+      if (!omega.periodic[d]) continue;
       const double edge = omega.edge(d), lost = 4 * edge * static_cast<double>(std::numeric_limits<R>::epsilon());
       low[d] = omega.low[d];
       period[D - 1 - d] = static_cast<std::int64_t>(edge / (1.01 * static_cast<double>(H) + lost));
@@ -36,7 +39,8 @@ struct cell_search_of {
     std::array<std::int64_t, D> c;
     for (int d = 0; d < D; ++d)
       c[D - 1 - d] = static_cast<std::int64_t>(std::floor((static_cast<double>(x[d]) - low[d]) * inverse_width[d]));
-    for (int d = 0; d < D && period[0] > 0; ++d) c[d] = std::clamp<std::int64_t>(c[d], 0, period[d] - 1);
+    for (int d = 0; d < D; ++d)
+      if (period[d] > 0) c[d] = std::clamp<std::int64_t>(c[d], 0, period[d] - 1);
     return c;
   }
   /// The cells around `own`, each once: there may be fewer than three along a periodic axis.
@@ -44,7 +48,8 @@ struct cell_search_of {
   void around_in_torus(const std::array<std::int64_t, D>& own, Meet&& meet) const {
     std::array<std::vector<std::int64_t>, D> axis;
     for (int d = 0; d < D; ++d) {
-      for (std::int64_t step = -1; step <= 1; ++step) axis[d].push_back((own[d] + step + period[d]) % period[d]);
+      for (std::int64_t step = -1; step <= 1; ++step)
+        axis[d].push_back(period[d] > 0 ? (own[d] + step + period[d]) % period[d] : own[d] + step);
       std::ranges::sort(axis[d]);
       axis[d].erase(std::unique(axis[d].begin(), axis[d].end()), axis[d].end());
     }
@@ -61,7 +66,7 @@ struct cell_search_of {
   template <class Meet>
   void around(const vec<D, R>& x, Meet&& meet) const {
     const auto own = cell(x);
-    if (period[0] > 0) return around_in_torus(own, meet);
+    if (closes) return around_in_torus(own, meet);
     std::size_t rows = 1;
     for (int d = 1; d < D; ++d) rows *= 3;
     for (std::size_t row = 0; row < rows; ++row) {

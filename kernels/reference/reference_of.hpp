@@ -66,7 +66,7 @@ class reference_of final : public reference {
       for (std::uint32_t i = 0; i < t.size(); ++i) {
         for (int d = 0; d < D; ++d) {
           x[i][d] = static_cast<R>(t.x[d][i]);
-          if (f.omega_.periodic) x[i][d] = f.omega_.wrapped(d, x[i][d]);
+          if (f.omega_.periodic[d]) x[i][d] = f.omega_.wrapped(d, x[i][d]);
         }
         if (kind[i] == particle_kind::fluid) fluid.push_back(i);
       }

@@ -69,8 +69,12 @@ void check_domain(const setup& s) {
     if (std::max(std::abs(s.omega_low[d]), std::abs(s.omega_high[d])) > range.largest)
       throw error("Omega does not fit into precision " + s.precision + ": component " + std::to_string(d) + " is [" +
                   text(s.omega_low[d]) + ", " + text(s.omega_high[d]) + "]");
-  for (std::size_t d = 0; d < s.omega_low.size() && s.periodic; ++d)
-    if (const double reaches = (s.omega_high[d] - s.omega_low[d]) / s.constants.H; !(reaches > 3.999))
+  for (int d = s.dim; d < 3; ++d)
+    if (s.periodic[d])
+      throw error("a " + std::to_string(s.dim) + "D domain has no axis " + "xyz"[d] + " that could be periodic");
+  for (std::size_t d = 0; d < s.omega_low.size(); ++d)
+    if (const double reaches = (s.omega_high[d] - s.omega_low[d]) / s.constants.H;
+        s.periodic.on[d] && !(reaches > 3.999))
       throw error("a periodic box must be 4 support radii or more along each axis, component " + std::to_string(d) +
                   " is " + text(reaches));
 }
@@ -112,10 +116,10 @@ void check_input(const particle_table& p, const setup& s) {
 
 template <class R>
 void check_apart(const particle_table& p, std::string_view interaction, const setup& s) {
-  std::vector<std::vector<R>> place;  // a point of a periodic box has one
+  std::vector<std::vector<R>> place;  // along a periodic axis a point has one
   for (std::size_t d = 0; d < p.x.size(); ++d) {
     place.emplace_back(p.x[d].begin(), p.x[d].end());
-    if (!s.periodic) continue;
+    if (!s.periodic.on[d]) continue;
     const box<1, R> axis = make_box_of_axis<R>(s, d);
     for (R& a : place[d]) a = axis.wrapped(0, a);
   }

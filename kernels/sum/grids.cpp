@@ -50,7 +50,7 @@ setup with_skin(setup s, double skin) {
 template <class R>
 box<1, R> make_box_of_axis(const setup& s, std::size_t d) {
   box<1, R> b;
-  b.periodic = s.periodic;
+  b.periodic.on[0] = s.periodic.on.at(d);
   const R far = std::numeric_limits<R>::infinity();
   const double low = s.omega_low.at(d), high = s.omega_high.at(d);
   b.low[0] = static_cast<R>(low);

@@ -23,10 +23,12 @@ bool in_reach(const positions<D, R>& x, std::uint32_t i, std::uint32_t j, R reac
   return norm2<D, R>(x.point_of(i) - x[j]) < reach2;
 }
 
-/// The domain's longest edge, in units of the cutoff.
-double widest(const setup& s, double cutoff) {
+/// The domain's longest edge along the axes that are periodic, or along those that are not, in units of the cutoff; 0
+/// without any.
+double widest(const setup& s, double cutoff, bool periodic) {
   double longest = 0;
-  for (std::size_t d = 0; d < s.omega_low.size(); ++d) longest = std::max(longest, s.omega_high[d] - s.omega_low[d]);
+  for (std::size_t d = 0; d < s.omega_low.size(); ++d)
+    if (s.periodic.on[d] == periodic) longest = std::max(longest, s.omega_high[d] - s.omega_low[d]);
   return longest / cutoff;
 }
 
@@ -35,14 +37,15 @@ double widest(const setup& s, double cutoff) {
 lane_tolerances lane_tolerances::of(const setup& s, double cutoff, bool mixed, double u, double value_u) {
   constexpr double unfolded = 2000;
   lane_tolerances t;
-  double component = 1.0 / places_per_reach + widest(s, cutoff) * 0x1p-51;  // in units of the cutoff
-  if (s.periodic) component += widest(s, cutoff) * (1.01 / turn + u);
+  const double open = widest(s, cutoff, false), around = widest(s, cutoff, true);
+  double component = 1.0 / places_per_reach + std::max(open, around) * 0x1p-51;  // in units of the cutoff
+  component += around * (1.01 / turn + u);
   t.excess = static_cast<float>(2 * std::sqrt(3.0) * component + 3 * component * component);
   for (std::size_t d = 0; d < s.omega_low.size(); ++d) {
     const double edge = s.omega_high[d] - s.omega_low[d];
-    t.mixed_unit[d] = s.periodic ? pairsum::mixed_unit(s.constants.H, edge) : pairsum::mixed_unit(s.constants.H);
+    t.mixed_unit[d] = s.periodic.on[d] ? pairsum::mixed_unit(s.constants.H, edge) : pairsum::mixed_unit(s.constants.H);
   }
-  const bool all_are_near = s.periodic ? t.excess < 8 : widest(s, cutoff) < unfolded;
+  const bool all_are_near = t.excess < 8 && open < unfolded;
   t.tie = !mixed || all_are_near ? 16 * value_u : std::numeric_limits<double>::infinity();
   return t;
 }
@@ -58,7 +61,7 @@ lane_rows<D, R>::lane_rows(const setup& s, const lane_layout& layout, bool lanes
                                             : std::numeric_limits<double>::epsilon());
   excess_ = allowed.excess;
   const bool rounds_alike = !layout.mixed && (D == 1 || lanes_fuse == scalar_fuses);
-  view_.periodic = s.periodic;
+  view_.periodic = s.periodic.any();
   view_.in_reach = rounds_alike ? nullptr : &in_reach<D, R>;
   view_.tie = allowed.tie;
   std::copy_n(allowed.mixed_unit.begin(), D, view_.mixed_unit.begin());
@@ -74,7 +77,7 @@ void lane_rows<D, R>::prepare(problem<D, R>& p, const team& t) {
                 std::to_string(p.count));
   rows_.resize(rows * layout_.stride);
   view_.rows = rows_.data();
-  for (int d = 0; d < D; ++d) view_.origin[d] = view_.periodic && p.count > 0 ? p.x.column[d][0] : R(0);
+  for (int d = 0; d < D; ++d) view_.origin[d] = p.x.omega.edge[d] > 0 && p.count > 0 ? p.x.column[d][0] : R(0);
   for (auto& column : place_) column.resize(p.count + place_room);
   t.for_pieces(p.count, [&](std::size_t begin, std::size_t end, std::size_t) { fill_places(p, begin, end); });
   for (std::size_t i = p.fluid_count; i < rows; ++i) {
@@ -97,18 +100,18 @@ void lane_rows<D, R>::prepare(problem<D, R>& p, const team& t) {
     places.place[d] = place_[d].data();
     if (!view_.periodic) continue;
     const double edge = p.x.omega.edge[d] / cutoff_ * places_per_reach;
-    places.place_size[d] = static_cast<float>(edge / turn);
-    places.half_edge[d] = static_cast<float>(edge / 2);
+    places.place_size[d] = edge > 0 ? static_cast<float>(edge / turn) : 1.0F;
+    places.half_edge[d] = edge > 0 ? static_cast<float>(edge / 2) : std::numeric_limits<float>::infinity();
   }
 }
 
-/// From the first particle, so that a domain far from 0 keeps its digits. The edge of a periodic box is 2^32.
+/// From the first particle, so that a domain far from 0 keeps its digits. The edge of a periodic axis is 2^32.
 template <int D, class R>
 void lane_rows<D, R>::fill_places(const problem<D, R>& p, std::size_t begin, std::size_t end) {
   if (begin == end) return;
   for (int d = 0; d < D; ++d) {
     const R* const x = p.x.column[d];
-    const double first = x[0], scale = p.x.omega.periodic ? turn / p.x.omega.edge[d] : places_per_reach / cutoff_;
+    const double first = x[0], edge = p.x.omega.edge[d], scale = edge > 0 ? turn / edge : places_per_reach / cutoff_;
     for (std::size_t i = begin; i < end; ++i) place_[d][i] = modulo_2_32((static_cast<double>(x[i]) - first) * scale);
   }
 }

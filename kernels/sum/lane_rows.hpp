@@ -26,8 +26,8 @@ struct lane_layout {
 /// whole number of mixed_unit modulo 2^32, kept in the bits of a value.
 template <int D, class R>
 struct lane_view {
-  std::byte* rows = nullptr;  ///< on 64-byte boundaries
-  bool periodic = false;
+  std::byte* rows = nullptr;           ///< on 64-byte boundaries
+  bool periodic = false;               ///< along any axis
   std::array<R, D> origin{};           ///< m: of mixed positions
   std::array<double, D> mixed_unit{};  ///< m: what mixed positions are counted in
   /// Decides r^2 < reach2 for particles i and j as scalar code does; nullptr if lanes round alike. One of the two may
@@ -40,13 +40,13 @@ struct lane_view {
 /// What vector units must allow for rounding, from the setup alone.
 struct lane_tolerances {
   /// How far rounding to places moves |x_i - x_j|^2, in units of the cutoff squared. A component of x_i - x_j is moved
-  /// by up to one place, and by what doubles cannot hold of it in a domain of that width. In a periodic box places are
-  /// as fine as its edge allows, sizes of places are rounded, and so are, in the working precision, differences as
+  /// by up to one place, and by what doubles cannot hold of it in a domain of that width. Along a periodic axis places
+  /// are as fine as its edge allows, sizes of places are rounded, and so are, in the working precision, differences as
   /// large as the edge.
   float excess = 0;
-  /// See lane_view. 16 units in the last place cover the roundings of r^2. In a domain wider than 2000 cutoffs places
-  /// coincide, so all pairs of whole-number rows (mixed) are decided one by one. (In a periodic box only those of a
-  /// particle do, but they may be coarse.)
+  /// See lane_view. 16 units in the last place cover the roundings of r^2. Along an open axis wider than 2000 cutoffs
+  /// places coincide, so all pairs of whole-number rows (mixed) are decided one by one. (Along a periodic one only
+  /// those of a particle do, but they may be coarse.)
   double tie = 0;
   std::array<double, 3> mixed_unit{};  ///< m, per axis
 

@@ -10,7 +10,7 @@ namespace pairsum {
 template <int D, class R>
 struct positions {
   std::array<const R*, D> column{};
-  torus<D, R> omega{};  ///< makes minimum-image displacements of differences if the domain is periodic
+  torus<D, R> omega{};  ///< makes minimum-image displacements of differences where the domain is periodic
 
   [[gnu::always_inline]] vec<D, R> operator[](std::size_t i) const {
     vec<D, R> p;
@@ -25,7 +25,7 @@ struct positions {
 };
 
 /// Places are fixed-point positions: integers modulo 2^32, so many per cutoff. Differences of particles less than 2048
-/// cutoffs apart are exact. In a periodic box 2^32 of them make an edge, so that differences are minimum images.
+/// cutoffs apart are exact. Along a periodic axis 2^32 of them make the edge, so that differences are minimum images.
 inline constexpr std::int32_t places_per_reach = 1 << 20;
 /// Columns of places can be read so far behind their end.
 inline constexpr std::size_t place_room = 32;
@@ -35,10 +35,10 @@ template <int D>
 struct lane_places {
   std::array<const std::int32_t*, D> place{};  ///< [particle]; rounded to the nearest
   float excess = 0;  ///< how far, in units of the search radius squared, rounding to places can move |x_i - x_j|^2
-  float boundary_reach = 0;  ///< in units of the search radius, at most 1
-  bool periodic = false;
-  std::array<float, D> place_size{};  ///< of a periodic box: units of 2^-20 search radii that a place takes, per axis
-  std::array<float, D> half_edge{};   ///< half its edges in such units
+  float boundary_reach = 0;           ///< in units of the search radius, at most 1
+  bool periodic = false;              ///< along any axis
+  std::array<float, D> place_size{};  ///< if periodic: units of 2^-20 search radii that a place takes, per axis
+  std::array<float, D> half_edge{};   ///< half the edges in such units; infinite along open axes
 };
 
 /// The positions of a search's candidates, and its cutoffs.

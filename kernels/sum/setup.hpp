@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include <pairsum/core/axes.hpp>
 #include <pairsum/interactions/interaction.hpp>
 
 namespace pairsum {
@@ -22,8 +23,8 @@ struct setup {
   std::size_t cache_bytes = 0;  ///< of a core, for `auto` blocks; 0: 1 MiB
   std::size_t cores = 0;  ///< that a process may use, however many it takes, for `auto` blocks; 0: as the machine says
   std::vector<double> omega_low, omega_high;  ///< m, `dim` values each
-  bool periodic = false;  ///< what leaves Omega comes back through the opposite face, and pairs reach through the faces
-  physics constants;      ///< H and the equation of state
+  axes periodic = {};  ///< what leaves through their faces comes back at the opposite one, and pairs reach through them
+  physics constants;   ///< H and the equation of state
 };
 
 }  // namespace pairsum

@@ -85,11 +85,11 @@ std::optional<unfolded_tests> state<D, R>::count_unfolded_tests() const {
 template <int D, class R>
 particle_table state<D, R>::snapshot() const {
   particle_table table = to_table(particles_, rows_total_);
-  if (setup_.periodic) {  // while a list serves, nobody is brought back
-    const box<D, double> omega = make_box<D, double>(setup_);
-    for (int d = 0; d < D; ++d)
-      for (double& x : table.x[static_cast<std::size_t>(d)])
-        if (std::isfinite(x)) x = omega.wrapped(d, x);
+  const box<D, double> omega = make_box<D, double>(setup_);
+  for (int d = 0; d < D; ++d) {
+    if (!omega.periodic[d]) continue;
+    for (double& x : table.x[static_cast<std::size_t>(d)])  // while a list serves, nobody is brought back
+      if (std::isfinite(x)) x = omega.wrapped(d, x);
   }
   return table;
 }

@@ -25,7 +25,7 @@ struct indexed_scene {
         mask(grid.M > 0 ? (1 << grid.M) - 1 : -1),
         index(omega, make_grid<3, double>(with(s.world, "naive", grid))),
         world(s.world) {
-    if (s.world.periodic) period = torus_cells(omega, s.world.constants.H, grid.M > 0 ? 1 << grid.M : 2);
+    period = torus_cells(omega, s.world.constants.H, grid.M > 0 ? 1 << grid.M : 2);
     fill(particles, s.particles);
     index.build(particles, t);
   }

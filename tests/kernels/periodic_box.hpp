@@ -11,7 +11,7 @@ namespace pairsum::test_kit {
 /// The cloud in a periodic box that is `stretch` times as long along each axis.
 inline scene make_periodic(const cloud& c, const std::array<double, 3>& stretch = {1, 1, 1}) {
   scene s = make_cloud(c);
-  s.world.periodic = true;
+  s.world.periodic = axes::all(c.dim);
   for (std::size_t d = 0; d < s.world.omega_low.size(); ++d) {
     double& high = s.world.omega_high[d];
     high = c.corner + c.length * c.H * stretch[d];
@@ -85,7 +85,7 @@ scene placed(int dim, const std::vector<double>& edges, double H, std::size_t n,
   s.world.constants.H = H;
   s.world.omega_low.assign(static_cast<std::size_t>(dim), 0);
   s.world.omega_high.assign(edges.begin(), edges.begin() + dim);
-  s.world.periodic = true;
+  s.world.periodic = axes::all(dim);
   particle_table& p = s.particles = particle_table(dim);
   p.resize(n);
   for (std::size_t i = 0; i < n; ++i) {

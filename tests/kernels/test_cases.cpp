@@ -158,8 +158,8 @@ TEST(periodic_lattice, is_the_lattice_in_a_periodic_box) {
   for (const int dim : {1, 2, 3}) {
     const auto c = made("periodic_lattice", 0.0625, "rest", 1, dim), open = made("lattice", 0.0625, "rest", 1, dim);
     EXPECT_EQ(c.particles.x, open.particles.x);
-    EXPECT_TRUE(c.periodic);
-    EXPECT_FALSE(open.periodic);
+    EXPECT_EQ(c.periodic, axes::all(dim));
+    EXPECT_FALSE(open.periodic.any());
     EXPECT_EQ(c.H, 0.125);
     const auto moved = made("periodic_lattice", 0.0625, "perturbed", 1, dim);
     for (const auto& x : moved.particles.x)

@@ -105,7 +105,7 @@ TEST(clouds, an_open_box_has_other_rates) {
   open.dim = c.dim;
   const auto expected = registry::instance().make_reference(open)->brute_force(s.particles, team());
   EXPECT_EQ(disagreement(evaluated(open, s.particles)->rates(), expected), "");
-  open.periodic = false;
+  open.periodic = {};
   EXPECT_NE(disagreement(evaluated(open, s.particles)->rates(), expected), "");
 }
 

@@ -96,7 +96,7 @@ TEST_P(periodic_faces_test, no_pair_is_missed_or_summed_twice) {
 /// In such boxes cells are H wide exactly, so that the hashed grid with 2^M H = the edge has the torus of the talk.
 TEST(periodic_faces, cells_of_H_exactly_where_that_is_safe) {
   const auto cells = [](double low, double edge, double H, std::int64_t multiple) {
-    box<1, double> omega{vec<1, double>(low), vec<1, double>(low + edge), true};
+    box<1, double> omega{vec<1, double>(low), vec<1, double>(low + edge), axes::all(1)};
     return torus_cells(omega, H, multiple)[0];
   };
   EXPECT_EQ(cells(0, 1, 0.0625, 2), 16);

@@ -34,7 +34,7 @@ TEST_P(torus_grids_test, close_on_themselves) {
   const torus_world& w = GetParam();
   constexpr double H = 0.5;
   setup s;
-  s.periodic = true;
+  s.periodic = axes::all(3);
   s.grid = w.grid.name;
   s.M = w.grid.M;
   s.constants.H = H;
@@ -114,7 +114,7 @@ TEST_P(torus_grids_test, close_on_themselves) {
 TEST(torus_grids, dense_grid_refuses_more_cells_than_it_can_number) {
   setup s;
   s.dim = 3;
-  s.periodic = true;
+  s.periodic = axes::all(3);
   s.grid = "dense_grid";
   s.constants.H = 1;
   s.omega_low.assign(3, 0);
@@ -129,7 +129,7 @@ TEST(torus_grids, dense_grid_refuses_more_cells_than_it_can_number) {
 TEST(torus_grids, wrapped_points_lie_in_the_box) {
   const double far = std::numeric_limits<double>::infinity();
   for (const auto& [low, high] : {std::pair{0.0, 1.0}, {-0.7, 0.4}, {1e6, 1e6 + 3.3}, {-1e-3, 1e9}}) {
-    const box<1, double> b{vec<1, double>(low), vec<1, double>(high), true};
+    const box<1, double> b{vec<1, double>(low), vec<1, double>(high), axes::all(1)};
     for (const double x : {low, std::nextafter(low, -far), high, std::nextafter(high, -far), std::nextafter(high, far),
                            low - 12.34, high + 1e5, 0.3, -1e300, 1e300}) {
       const double y = b.wrapped(0, x);

@@ -58,7 +58,7 @@ std::uint64_t listed_by_hand(const scene& s, double skin) {
       double square = 0;
       for (std::size_t d = 0; d < 3; ++d) {
         const double edge = s.world.omega_high[d] - s.world.omega_low[d];
-        const double r = p.x[d][i] - p.x[d][j], turns = s.world.periodic ? std::round(r / edge) : 0;
+        const double r = p.x[d][i] - p.x[d][j], turns = s.world.periodic.on[d] ? std::round(r / edge) : 0;
         square += (r - turns * edge) * (r - turns * edge);
       }
       n += std::sqrt(square) < H * (1 + skin);
