@@ -6,12 +6,14 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <span>
 
 #include <pairsum/core/error.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/cli/profile_levels.hpp"
 #include "harness/environment/machine.hpp"
+#include "harness/evolve/initial_of.hpp"
 #include "harness/plan/levels.hpp"
 #include "harness/plan/narrow.hpp"
 #include "harness/plan/study.hpp"
@@ -91,11 +93,11 @@ study_plan plan_of(const run_options& o, const given_options& given) {
   if (o.plan.empty()) return plan_from_options(o, given);
   if (given.at("profile")) throw error("--profile names points, and so does the plan " + o.plan);
   for (const auto& [key, text] : o.levels)
-    if (given.at(key) && key != "seed")
+    if (given.at(option_of(key).substr(2)) && key != "seed")
       throw error(
-          fmt::format("--{0} is said by the plan {1}; --only {0}=... narrows it, --show-plan prints it, for a plan "
+          fmt::format("{0} is said by the plan {1}; --only {2}=... narrows it, --show-plan prints it, for a plan "
                       "file of your own",
-                      key, o.plan));
+                      option_of(key), o.plan, key));
   if (given.at("study")) throw error("--study is said by the plan " + o.plan);
   study_plan plan = parse_plan(load_plan(o.plan), usable_cores());
   if (given.at("seed"))
@@ -146,6 +148,9 @@ int start(const run_options& o, const given_options& given) {
     fmt::print("{}\n", plan_json(plan).dump(2));
     return 0;
   }
+  std::set<std::string> told;
+  for (part_plan& p : plan.parts)
+    if (const std::string table = take_particles(p.request); told.insert(table).second) fmt::print("{}", table);
   const registry& all = registry_of(plan);
   if (o.dry_run) {
     fmt::print("{}", dry_run(plan, all));
@@ -224,6 +229,8 @@ void add_run_command(CLI::App& app, action& chosen) {
   flag("--dry-run", o->dry_run, "print the design and about how long it takes; measure nothing", design);
   flag("--show-plan", o->show_plan, "print the plan as JSON; measure nothing", design);
   add_levels(*command, *o);
+  for (CLI::Option* const option : add_particle_options(*command, o->levels))
+    described(option, "Particles of your own (docs/own-particles.md)");
   described(command->add_option("--rounds", o->rounds, "fresh processes that measure all points; intervals need 6 [6]"),
             round_group);
   described(command->add_option("--half-width", o->half_width,

@@ -9,6 +9,7 @@
 #include "harness/cli/profile_levels.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/evolve/balance.hpp"
+#include "harness/evolve/initial_of.hpp"
 #include "harness/plan/levels.hpp"
 #include "harness/plugin/plugins.hpp"
 #include "harness/simulate/simulate.hpp"
@@ -54,6 +55,7 @@ int start(const simulate_options& o, const given_options& given) {
   simulate_request r = o.request;
   r.levels = levels_of(o.levels, o.profile, given);
   r.snapshots = o.snapshots;
+  fmt::print("{}", take_particles(r.levels));
   check_cores(r.levels.threads, o.oversubscribe);
   const bool dim3 = r.levels.dim == 3;
   double energy_at_start = 0;
@@ -101,6 +103,7 @@ void add_simulate_command(CLI::App& app, action& chosen) {
   for (const level_option& option : simulate_levels)
     command->add_option(std::string("--") + option.key, o->levels[option.key] = option.standard, option.what)
         ->capture_default_str();
+  add_particle_options(*command, o->levels);
   simulate_request& r = o->request;
   command->add_option("--profile", o->profile,
                       "file of pairsum tune: its case and winner where no option says otherwise");

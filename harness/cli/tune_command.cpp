@@ -13,7 +13,9 @@
 #include <pairsum/core/names.hpp>
 #include <pairsum/sum/grids.hpp>
 #include "harness/cli/commands.hpp"
+#include "harness/cli/profile_levels.hpp"
 #include "harness/environment/machine.hpp"
+#include "harness/evolve/initial_of.hpp"
 #include "harness/plan/levels.hpp"
 #include "harness/plan/variants.hpp"
 #include "harness/plugin/plugins.hpp"
@@ -84,12 +86,13 @@ void check_writable(const std::string& path) {
     throw error("does not write over " + path + ", which is no profile of pairsum tune" + instead);
 }
 
-int start_tuning(const tune_settings& o) {
+int start_tuning(const tune_settings& o, const given_options& given) {
   tune_request r = o.request;
-  for (const auto& [key, text] : o.levels) {
-    const bool all = text == "all" && (key == "backend" || key == "grid");
-    read_level(r.levels, key, all ? every_word(key) : text, usable_cores(), "--" + key);
-  }
+  std::map<std::string, std::string> levels = o.levels;
+  for (const char* const key : {"backend", "grid"})
+    if (levels[key] == "all") levels[key] = every_word(key);
+  r.levels = levels_of(levels, "", given);
+  const std::string particles = take_particles(r.levels);
   check_cores(r.levels.threads, o.oversubscribe);
   r.rules.seed = r.levels.seed;
   check_writable(o.save);
@@ -97,6 +100,7 @@ int start_tuning(const tune_settings& o) {
   note_interrupts();
   const tune_result result = tune(r, all);
   std::FILE* const lines = o.json ? stderr : stdout;
+  fmt::print(lines, "{}", particles);
   if (const std::string note = limits_note(); !note.empty()) fmt::print(lines, "note: {}\n", note);
   fmt::print(lines, "{}", tune_text(r, result, all, has_colours(lines)));
   const bool saved = result.winner && !result.interrupted;
@@ -126,6 +130,7 @@ void add_tune_command(CLI::App& app, action& chosen) {
     command->add_option(std::string("--") + option.key, o->levels[option.key] = option.standard, option.what)
         ->capture_default_str();
   const CLI::Option* const M = command->get_option("--M");
+  add_particle_options(*command, o->levels);
   command->add_option("--budget", o->request.budget_s, "seconds for everything, particles and reference included")
       ->capture_default_str();
   command->add_option("--phase", o->request.phase, "what is to be fast: total (a whole step) or sum (alone)")
@@ -142,9 +147,10 @@ void add_tune_command(CLI::App& app, action& chosen) {
       "  pairsum tune --dx 0.012                           a minute\n"
       "  pairsum run --profile tune.profile.json           measures what it found as a study\n"
       "  pairsum tune --dx 0.00594 --budget 180 --save talk.profile.json");
-  command->callback([&chosen, o, M] {
+  command->callback([&chosen, o, M, command] {
     o->request.all_M = M->count() > 0;
-    chosen = [o] { return start_tuning(*o); };
+    const given_options given = given_of(*command);
+    chosen = [o, given] { return start_tuning(*o, given); };
   });
 }
 

@@ -63,7 +63,7 @@ particles_of_request evolved(std::string_view case_name, const case_parameters& 
   case_parameters rest = c;
   rest.state = "rest";
   rest.H = 0;
-  particles_of_request made{make_case(case_name, rest), ""};
+  particles_of_request made{make_case(case_name, rest)};
   const std::string words =
       nlohmann::json{recipe, case_name, c.dim, c.dx, c.seed, time, made.initial.particles.size()}.dump();
   const std::string called = fmt::format("{} evolved to {:g} s", case_name, time);
@@ -77,6 +77,12 @@ particles_of_request evolved(std::string_view case_name, const case_parameters& 
   made.initial.particles = std::move(saved.what.particles);
   made.hash = hash_of(made.initial.particles);
   if (c.H != 0) made.initial.H = c.H;
+  const auto tell = [&](const char* what, std::string value, const char* from) {
+    made.facts.push_back({what, std::move(value), "derived", from});
+  };
+  tell("state", called, "pairsum's recipe for evolved states: docs/own-particles.md");
+  tell("steps", fmt::format("{}", saved.what.step), "from rest");
+  tell("lost", fmt::format("{}", saved.what.lost), "fluid particles that left Omega on the way");
   return made;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -91,9 +92,29 @@ level number(double run_request::*member) {
           [member](const run_request& r) { return json(r.*member); }};
 }
 
-const std::map<std::string, level>& levels() {
+/// What particle files do not say, as it was given; checked where they are read.
+level hint(const std::string& word) {
+  return {[word](run_request& r, const std::string&, const std::string& text, int) {
+            if (text.empty())
+              r.hints.erase(word);
+            else
+              r.hints[word] = text;
+          },
+          [word](const run_request& r) {
+            const auto at = r.hints.find(word);
+            return at == r.hints.end() ? json() : json(at->second);
+          }};
+}
+level particle_files() {
+  return {[](run_request& r, const std::string& key, const std::string& text, int) {
+            r.particles = text.empty() ? std::vector<std::string>{} : parse_words(key, text);
+          },
+          [](const run_request& r) { return r.particles.empty() ? json() : json(r.particles); }};
+}
+
+std::map<std::string, level> all_levels() {
   using r = run_request;
-  static const std::map<std::string, level> all{
+  std::map<std::string, level> all{
       {"case", word(&r::case_name)},
       {"dx",
        {[](r& q, const std::string& key, const std::string& text, int) { q.dx = parse_numbers(key, text); },
@@ -120,7 +141,17 @@ const std::map<std::string, level>& levels() {
       {"seed",
        {[](r& q, const std::string& key, const std::string& text, int) { q.seed = parse_seed(key, text); },
         [](const r& q) { return json(q.seed); }}},
+      {"particles", particle_files()},
+      {"particles_hash",
+       {[](r& q, const std::string&, const std::string& text, int) { q.particles_hash = text; },
+        [](const r& q) { return q.particles_hash.empty() ? json() : json(q.particles_hash); }}},
   };
+  for (const particle_hint& h : particle_hints()) all.emplace(h.word, hint(std::string(h.word)));
+  return all;
+}
+
+const std::map<std::string, level>& levels() {
+  static const std::map<std::string, level> all = all_levels();
   return all;
 }
 
@@ -135,8 +166,33 @@ bool read_level(run_request& r, const std::string& key, const json& value, int c
 
 json levels_json(const run_request& r) {
   json j = json::object();
-  for (const auto& [key, level] : levels()) j[key] = level.write(r);
+  for (const auto& [key, level] : levels())
+    if (json value = level.write(r); !value.is_null()) j[key] = std::move(value);
   return j;
+}
+
+const std::vector<particle_hint>& particle_hints() {
+  static const std::vector<particle_hint> all{
+      {"h", "smoothing length in m; H is --support times it"},
+      {"support", "support radius in smoothing lengths [what the format says, else 2]"},
+      {"h_quantile", "of a smoothing length that varies, the share of particles whose h is no larger [1]"},
+      {"rho0", "density at rest in kg/m3"},
+      {"mass", "of a particle in kg"},
+      {"B", "of the equation of state, in Pa"},
+      {"boundary_kind", "which particles are boundary: Type=0,1, or none"},
+      {"periodic", "axes: x,z, all or none"},
+      {"box", "edges of a box at 0, or low and high corner, in m: 1,1,1 or 0,0,0,1,1,1"},
+      {"column", "a column of another name: x=Points:0,rho=Density"},
+      {"file_dim", "dimension, where the files' own is not wanted"},
+      {"file_step", "of a file with several steps [the last]"},
+  };
+  return all;
+}
+
+std::string option_of(std::string_view level) {
+  std::string option = "--" + std::string(level);
+  std::ranges::replace(option, '_', '-');
+  return option;
 }
 
 std::vector<std::string> level_words() {

@@ -1,6 +1,7 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/plan/plan.hpp"
@@ -20,5 +21,14 @@ nlohmann::json levels_json(const run_request& r);
 
 /// The keys.
 std::vector<std::string> level_words();
+
+/// A word for what particle files do not say: a level of a request, and an option with - for _.
+struct particle_hint {
+  std::string_view word, what;
+};
+const std::vector<particle_hint>& particle_hints();
+
+/// The option of a level: "--h-quantile" of h_quantile.
+std::string option_of(std::string_view level);
 
 }  // namespace pairsum::harness

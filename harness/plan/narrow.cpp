@@ -18,7 +18,8 @@ using nlohmann::json;
 
 /// The values of a level, whether it takes one or a list.
 std::vector<json> values_of(const run_request& r, const std::string& key) {
-  const json value = levels_json(r).at(key);
+  const json value = levels_json(r).value(key, json());
+  if (value.is_null()) return {};
   return value.is_array() ? value.get<std::vector<json>>() : std::vector<json>{value};
 }
 

@@ -44,9 +44,17 @@ std::vector<std::string_view> case_state_words() {
 void check_request(const run_request& r, const registry& all) {
   std::vector<std::string_view> cases;
   for (const case_entry& c : case_entries()) cases.push_back(c.name);
-  check_word("case", r.case_name, cases);
-  for (const auto& s : r.states)
-    if (!evolved_time(s)) check_word("state", s, case_state_words());
+  if (r.particles.empty()) {
+    check_word("case", r.case_name, cases);
+    for (const auto& s : r.states)
+      if (!evolved_time(s)) check_word("state", s, case_state_words());
+    if (!r.hints.empty())
+      throw error(
+          fmt::format("{} is about particles of files, of which --particles names none", r.hints.begin()->first));
+  } else {
+    for (const auto& s : r.states)
+      check_word("state of particles of files", s, std::vector<std::string_view>{state_of_files, "perturbed"});
+  }
   for (const auto& b : r.backends) all.find_backend(b);
   for (const auto& i : r.interactions) all.check_interaction(i);
   if (std::ranges::any_of(r.interactions, [&](const std::string& i) { return all.is_smoothed(i); }))

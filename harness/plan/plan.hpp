@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,9 @@ namespace pairsum::harness {
 struct run_request {
   std::string study = "run", part = "run";
   std::string case_name = "dam_break";
+  std::vector<std::string> particles;        ///< files in place of a case; see take_particles()
+  std::map<std::string, std::string> hints;  ///< what they do not say, by the words of particle_hints()
+  std::string particles_hash;                ///< of what was read; empty: not read yet
   std::vector<double> dx{0.02};
   std::vector<std::string> states{"rest"};
   std::vector<std::string> backends{"naive_omp", "symmetric_omp"};
@@ -30,6 +34,9 @@ struct run_request {
   int repetitions = 1;  ///< of each point in a round, that is in one process
   std::uint64_t seed = 1;
 };
+
+/// The word that stands for a case where particles come from files, and for their state as it was read.
+inline constexpr std::string_view case_of_files = "file", state_of_files = "read";
 
 /// The states that a case can be in, for messages and lists: those of the library, and evolved:T.
 std::vector<std::string_view> case_state_words();

@@ -155,6 +155,30 @@ std::optional<std::string> fields::text_or_null(const char* key) {
   return text(key);
 }
 
+namespace {
+
+bool is_text_list(const nlohmann::json& value) {
+  return value.is_array() && std::all_of(value.begin(), value.end(), [](const nlohmann::json& v) {
+           return v.is_string() && !has_controls(v.get_ref<const std::string&>());
+         });
+}
+
+}  // namespace
+
+std::vector<std::string> fields::texts(const char* key) {
+  const auto& value = at(key);
+  if (!is_text_list(value)) reject(key, "an array of strings without control characters");
+  return value.get<std::vector<std::string>>();
+}
+
+std::vector<std::vector<std::string>> fields::text_table(const char* key, std::size_t columns) {
+  const auto& value = at(key);
+  const auto row = [columns](const nlohmann::json& v) { return is_text_list(v) && v.size() == columns; };
+  if (!value.is_array() || !std::all_of(value.begin(), value.end(), row))
+    reject(key, "an array of arrays of " + std::to_string(columns) + " strings without control characters");
+  return value.get<std::vector<std::vector<std::string>>>();
+}
+
 std::string fields::hex(const char* key) {
   std::string value = text(key);
   if (!is_hex(value)) throw error("key \"" + prefix_ + key + "\" should be 16 hex digits, is \"" + value + "\"");

@@ -37,6 +37,10 @@ class fields {
   /// A text without control characters.
   std::string text(const char* key);
   std::optional<std::string> text_or_null(const char* key);
+  /// A list of texts without control characters.
+  std::vector<std::string> texts(const char* key);
+  /// A list of lists of `columns` such texts.
+  std::vector<std::vector<std::string>> text_table(const char* key, std::size_t columns);
   /// 16 lower-case hex digits.
   std::string hex(const char* key);
   std::optional<std::string> hex_or_null(const char* key);

@@ -147,6 +147,10 @@ class rows_reader::parser {
     to_.known_.backends.emplace(b.environment, b.name);
     rows_.backends.push_back(std::move(b));
   }
+  void keep(particles_row&& p) {
+    to_.known_.particles.insert(p.particles);
+    rows_.particles.push_back(std::move(p));
+  }
   void keep(void_row&& v) { rows_.voids.push_back(std::move(v)); }
   void keep(end_row&& e) {
     rows_.ends.push_back(std::move(e));
@@ -170,6 +174,8 @@ class rows_reader::parser {
     if (!former_ && !to_.known_.backends.contains({s.environment, s.point.backend}))
       throw error("key \"point.backend\" should name a backend row of its environment before it, is \"" +
                   s.point.backend + "\"");
+    if (!s.point.particles.empty() && !to_.known_.particles.contains(s.point.particles))
+      throw error("key \"point.particles\" should name a particles row before it, is \"" + s.point.particles + "\"");
     still_open(s.study, s.round);
     ++to_.samples_[{s.study, s.round}];
     rows_.samples.push_back(std::move(s));

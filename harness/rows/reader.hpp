@@ -24,13 +24,14 @@ struct rows_file {
   std::vector<pace_row> paces;
   std::vector<round_row> rounds;
   std::vector<end_row> ends;
+  std::vector<particles_row> particles;
   std::vector<std::size_t> rounds_before_end;  ///< of each end row: how many round rows stand before it
   bool last_line_cut = false;                  ///< a cut last line was dropped
   bool former_schema = false;                  ///< a row is of the former schema
 
   std::size_t size() const {
     return samples.size() + environments.size() + backends.size() + voids.size() + peaks.size() + paces.size() +
-           rounds.size() + ends.size();
+           rounds.size() + ends.size() + particles.size();
   }
   /// The samples of finished rounds: those that a round row closes and no void row names.
   std::vector<sample> valid_samples() const;
@@ -46,6 +47,7 @@ struct rows_file {
 struct known_names {
   std::set<std::string> environments;
   std::set<std::pair<std::string, std::string>> backends;  ///< (environment, backend)
+  std::set<std::string> particles;
 };
 
 /// What to do with a truncated last line.

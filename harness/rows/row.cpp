@@ -48,6 +48,7 @@ point read_point(fields from, bool former) {
   p.threads = from.integer("threads", 1);
   p.granularity = from.text("granularity");
   p.isa = from.text("isa");
+  if (from.has("particles")) p.particles = from.hex("particles");
   if (!former || from.has("block")) p.block = from.text("block");  // older rows have none
   from.finish();
   return p;
@@ -138,6 +139,7 @@ void to_json(json& j, const point& p) {
        {"granularity", p.granularity},
        {"isa", p.isa},
        {"block", p.block}};
+  if (!p.particles.empty()) j["particles"] = p.particles;
 }
 
 void to_json(json& j, const phases& p) {
@@ -235,7 +237,7 @@ row parse_row(const json& j) {
   fields from(j);
   from.word("schema", {row_schema, former_row_schema});
   const std::string kind =
-      from.word("kind", {"sample", "environment", "backend", "peak", "pace", "round", "end", "void"});
+      from.word("kind", {"sample", "environment", "backend", "peak", "pace", "round", "end", "void", "particles"});
   if (kind == "sample") return j.get<sample>();
   if (kind == "environment") return j.get<environment_row>();
   if (kind == "backend") return j.get<backend_row>();
@@ -243,6 +245,7 @@ row parse_row(const json& j) {
   if (kind == "pace") return j.get<pace_row>();
   if (kind == "round") return j.get<round_row>();
   if (kind == "end") return j.get<end_row>();
+  if (kind == "particles") return j.get<particles_row>();
   return j.get<void_row>();
 }
 

@@ -40,6 +40,7 @@ struct point {
   std::string isa;             ///< of the vector units that it used, or "scalar"; older rows have for scalar
                                ///< backends what they were compiled for
   std::string block = "none";  ///< blocks of cells, "auto" or "slab:4"; "none" for backends without
+  std::string particles;       ///< 16 hex digits of particles that no case makes: see particles_row; "" of a case
   bool operator==(const point&) const = default;
 };
 
@@ -151,6 +152,15 @@ struct backend_row {
   bool operator==(const backend_row&) const = default;
 };
 
+/// Particles that no case makes, read from files or evolved, before the samples that name them.
+struct particles_row {
+  std::string study, utc, particles;  ///< 16 hex digits of their bits and their domain
+  std::vector<std::string> files;
+  /// What was read, given, derived or assumed: what, value, how, from.
+  std::vector<std::array<std::string, 4>> facts;
+  bool operator==(const particles_row&) const = default;
+};
+
 /// The machine's best rates with so many threads, measured by the program: the model's bounds.
 struct peak_row {
   std::string study, utc, environment;
@@ -198,7 +208,8 @@ struct void_row {
   bool operator==(const void_row&) const = default;
 };
 
-using row = std::variant<sample, environment_row, backend_row, void_row, peak_row, pace_row, round_row, end_row>;
+using row =
+    std::variant<sample, environment_row, backend_row, void_row, peak_row, pace_row, round_row, end_row, particles_row>;
 
 /// To JSON with exactly the keys of the schema; numbers that are not finite become null.
 void to_json(nlohmann::json& json, const point& value);
@@ -214,6 +225,7 @@ void to_json(nlohmann::json& json, const peak_row& value);
 void to_json(nlohmann::json& json, const pace_row& value);
 void to_json(nlohmann::json& json, const round_row& value);
 void to_json(nlohmann::json& json, const end_row& value);
+void to_json(nlohmann::json& json, const particles_row& value);
 void to_json(nlohmann::json& json, const counters_row& value);
 
 /// From JSON, strictly: a missing, unknown or ill-typed key throws pairsum::error naming it.
@@ -229,6 +241,7 @@ void from_json(const nlohmann::json& json, peak_row& value);
 void from_json(const nlohmann::json& json, pace_row& value);
 void from_json(const nlohmann::json& json, round_row& value);
 void from_json(const nlohmann::json& json, end_row& value);
+void from_json(const nlohmann::json& json, particles_row& value);
 
 /// The row as one line of JSON, without the newline.
 std::string format_row(const row& value);

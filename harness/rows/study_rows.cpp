@@ -87,6 +87,24 @@ void from_json(const json& j, backend_row& b) {
   from.finish();
 }
 
+void to_json(json& j, const particles_row& p) {
+  j = head("particles", p);
+  j["particles"] = p.particles;
+  j["files"] = p.files;
+  j["facts"] = p.facts;
+}
+
+void from_json(const json& j, particles_row& p) {
+  fields from(j);
+  read_head(from, "particles", p);
+  p.particles = from.hex("particles");
+  p.files = from.texts("files");
+  p.facts.clear();
+  for (const std::vector<std::string>& fact : from.text_table("facts", 4))
+    p.facts.push_back({fact[0], fact[1], fact[2], fact[3]});
+  from.finish();
+}
+
 void to_json(json& j, const void_row& v) {
   j = head("void", v);
   j["round"] = v.round;

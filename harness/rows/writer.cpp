@@ -63,9 +63,12 @@ template <class Row>
 void row_writer::must_be_known(const Row& r) const {
   if constexpr (requires { r.environment; } && !std::is_same_v<Row, environment_row>)
     if (!knows(r.environment)) cannot_write(path_, "no environment row before the row is \"" + r.environment + "\"");
-  if constexpr (std::is_same_v<Row, sample>)
+  if constexpr (std::is_same_v<Row, sample>) {
     if (!knows(r.environment, r.point.backend))
       cannot_write(path_, "no backend row before the row is \"" + r.point.backend + "\"");
+    if (!r.point.particles.empty() && !knows_particles(r.point.particles))
+      cannot_write(path_, "no particles row before the row is \"" + r.point.particles + "\"");
+  }
 }
 
 void row_writer::write(const row& value) {
@@ -93,6 +96,7 @@ void row_writer::write(const row& value) {
   if (::fsync(file_) != 0) cannot_write(path_, std::strerror(errno));
   if (const auto* e = std::get_if<environment_row>(&value)) known_.environments.insert(e->environment);
   if (const auto* b = std::get_if<backend_row>(&value)) known_.backends.emplace(b->environment, b->name);
+  if (const auto* p = std::get_if<particles_row>(&value)) known_.particles.insert(p->particles);
 }
 
 }  // namespace pairsum::harness

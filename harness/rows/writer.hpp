@@ -35,6 +35,9 @@ class row_writer {
     return known_.backends.contains({environment, backend});
   }
 
+  /// Is there a particles row of that hash in the file?
+  bool knows_particles(const std::string& hash) const { return known_.particles.contains(hash); }
+
  private:
   template <class Row>
   void must_be_known(const Row& r) const;

@@ -40,7 +40,7 @@ std::string levels_text(const run_request& r) {
     const bool always = item.key() == "backend" || item.key() == "dx" || item.key() == "M" || item.key() == "threads" ||
                         item.key() == "state";
     if (item.key() == "M" && std::ranges::none_of(r.grids, grid_takes_M)) continue;
-    if (always || item.value() != standard.at(item.key()))
+    if (always || item.value() != standard.value(item.key(), nlohmann::json()))
       text += fmt::format("  {:<14}{}\n", item.key(), text_of(item.value()));
   }
   return text;

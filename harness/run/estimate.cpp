@@ -9,6 +9,7 @@
 #include <pairsum/core/workers.hpp>
 #include <pairsum/sum/setup_of.hpp>
 #include "harness/environment/machine.hpp"
+#include "harness/evolve/initial_of.hpp"
 #include "harness/measure/stopwatch.hpp"
 
 namespace pairsum::harness {
@@ -16,6 +17,7 @@ namespace {
 
 /// Particles of a case at a spacing, extrapolated from a coarser one where making it would take long.
 double particles_of(const run_request& r, double dx) {
+  if (!r.particles.empty()) return static_cast<double>(initial_of(r, dx, state_of_files).initial.particles.size());
   const double coarse = std::max(dx, 0.04);
   const double n = static_cast<double>(make_case(r.case_name, {r.dim, coarse, r.H, "rest", r.seed}).particles.size());
   return std::min(n * std::pow(coarse / dx, r.dim), 0x1p32);  // more than that is refused

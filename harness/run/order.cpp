@@ -9,7 +9,7 @@
 namespace pairsum::harness {
 namespace {
 
-constexpr const char* order_schema = "pairsum.order/3";
+constexpr const char* order_schema = "pairsum.order/4";
 constexpr const char* errands[] = {"peaks", "verify", "measure"};
 
 }  // namespace
@@ -23,6 +23,7 @@ nlohmann::json order_json(const order& o) {
           {"out", o.out},
           {"environments", o.known.environments},
           {"backends", o.known.backends},
+          {"particles", o.known.particles},
           {"binding", o.binding},
           {"store", o.store},
           {"standing",
@@ -51,6 +52,7 @@ order parse_order(const nlohmann::json& j) {
   o.out = j.at("out");
   o.known.environments = j.at("environments").get<std::set<std::string>>();
   o.known.backends = j.at("backends").get<std::set<std::pair<std::string, std::string>>>();
+  o.known.particles = j.at("particles").get<std::set<std::string>>();
   o.binding = j.at("binding");
   o.store = j.at("store");
   const auto& where = j.at("standing");

@@ -114,6 +114,7 @@ class errand_run {
     measured_part part(order_, with_);
     for (const auto& w : part.worlds()) w->make_reference();
     open();
+    describe_particles(part);
     describe_backends(part);
     warm_up(part);
     const int repetitions = part.request().repetitions;
@@ -200,6 +201,15 @@ class errand_run {
   void open() {
     writer_ = std::make_unique<row_writer>(order_.out, order_.known);
     if (!writer_->knows(environment_.environment)) writer_->write(environment_);
+  }
+
+  /// A row for the particles of every world that no case makes, if there is none.
+  void describe_particles(measured_part& part) {
+    for (const auto& w : part.worlds()) {
+      const particles_of_request& made = w->particles();
+      if (made.hash.empty() || writer_->knows_particles(made.hash)) continue;
+      writer_->write(particles_row{order_.plan.study, utc_now(), made.hash, made.files, made.facts});
+    }
   }
 
   /// A row for every backend of the part that has none there.

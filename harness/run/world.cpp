@@ -22,12 +22,8 @@
 
 namespace pairsum::harness {
 
-world_particles::world_particles(const run_request& r, const point& any)
-    : world_particles(initial_of(r, any.dx, any.state), r) {}
-
-world_particles::world_particles(particles_of_request made, const run_request& r)
-    : initial(std::move(made.initial)), hash(std::move(made.hash)) {
-  if (r.outside == "drop") dropped = drop_outside(initial.particles, initial.omega_low, initial.omega_high);
+world_particles::world_particles(const run_request& r, const point& any) : made(initial_of(r, any.dx, any.state)) {
+  if (r.outside == "drop") dropped = drop_outside(made.initial.particles, initial.omega_low, initial.omega_high);
   for (const std::string& order : r.orders) orders[order] = memory_order(order, initial, r.seed);
 }
 
@@ -40,7 +36,7 @@ world::world(const measuring& with, const run_request& r, const point& any,
 /// Everything that particles, reference and trajectory depend on, and the build.
 std::string world::key() const {
   return nlohmann::json{with_.build,    request_.case_name, request_.dim,  request_.H, request_.outside,
-                        request_.seed,  request_.dt,        any_.dx,       any_.state, particles_->hash,
+                        request_.seed,  request_.dt,        any_.dx,       any_.state, particles_->made.hash,
                         any_.precision, any_.interaction,   any_.smoothing}
       .dump();
 }
@@ -68,6 +64,7 @@ void world::remember() {
 
 void world::complete(point& p) const {
   p.H = particles_->initial.H;
+  p.particles = particles_->made.hash;
   p.n_fluid = particles_->initial.particles.count(particle_kind::fluid);
   p.n_boundary = particles_->initial.particles.count(particle_kind::boundary);
 }

@@ -26,15 +26,14 @@ struct step_result {
 
 /// The particles of a (dx, state), made once for all worlds that have them, and their orders of memory by name.
 struct world_particles {
-  initial_condition initial;
+  particles_of_request made;
+  const initial_condition& initial = made.initial;
   std::map<std::string, std::vector<std::uint32_t>> orders;
-  std::string hash;         ///< see particles_of_request
   std::size_t dropped = 0;  ///< lay outside Omega and were left out (--outside drop)
 
   world_particles(const run_request& r, const point& any);
-
- private:
-  world_particles(particles_of_request made, const run_request& r);
+  world_particles(const world_particles&) = delete;
+  world_particles& operator=(const world_particles&) = delete;
 };
 
 /// What measurements of a process have in common.
@@ -78,6 +77,7 @@ class world {
   result measure(const point& p, int steps = 0);
 
   std::size_t dropped() const { return particles_->dropped; }
+  const particles_of_request& particles() const { return particles_->made; }
 
  private:
   work_row work_of(const point& p, summation& s);

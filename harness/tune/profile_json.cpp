@@ -23,6 +23,19 @@ using nlohmann::json;
 constexpr std::string_view case_levels[] = {"case",  "dx",          "state",     "dim",     "H",
                                             "order", "interaction", "smoothing", "outside", "seed"};
 
+/// Is the level one that only particles of files have?
+bool is_of_files(std::string_view key) {
+  return key == "particles" || key == "particles_hash" ||
+         std::ranges::find(particle_hints(), key, &particle_hint::word) != particle_hints().end();
+}
+
+std::vector<std::string> keys_of_case() {
+  std::vector<std::string> keys(std::begin(case_levels), std::end(case_levels));
+  for (const std::string& key : level_words())
+    if (is_of_files(key)) keys.push_back(key);
+  return keys;
+}
+
 json bound(const std::optional<interval>& bounds, double interval::*side) {
   return bounds ? json((*bounds).*side) : json(nullptr);
 }
@@ -36,10 +49,9 @@ saved_profile read(const json& j) {
   p.words = from.text("words");
   const profile words = parse_profile(p.words);
   fields made_for = from.nested("case");
-  for (const std::string_view level : case_levels) {
-    const std::string key(level);
-    read_level(p.levels, key, made_for.at(key.c_str()), 0, "its " + key);
-  }
+  for (const std::string& key : keys_of_case())
+    if (made_for.has(key.c_str()) || !is_of_files(key))
+      read_level(p.levels, key, made_for.at(key.c_str()), 0, "its " + key);
   made_for.finish();
   fields machine = from.nested("machine");
   p.host = machine.text("host");
@@ -66,7 +78,8 @@ saved_profile read(const json& j) {
 json case_json(const run_request& r) {
   const json levels = levels_json(r);
   json made_for;
-  for (const std::string_view key : case_levels) made_for[std::string(key)] = levels.at(std::string(key));
+  for (const std::string& key : keys_of_case())
+    if (levels.contains(key)) made_for[key] = levels.at(key);
   return made_for;
 }
 
@@ -112,7 +125,7 @@ bool is_profile(const std::string& path) {
 bool profile_says(std::string_view level) {
   constexpr std::string_view words[] = {"backend", "grid", "M", "isa", "block", "precision", "threads", "granularity"};
   return std::ranges::find(words, level) != std::end(words) ||
-         std::ranges::find(case_levels, level) != std::end(case_levels);
+         std::ranges::find(case_levels, level) != std::end(case_levels) || is_of_files(level);
 }
 
 std::string differences(const saved_profile& p) {

@@ -135,9 +135,7 @@ void choose_domain(set_in_making& s) {
   if (s.made.wrapped > 0)
     s.tell("wrapped", std::to_string(s.made.wrapped), origin::derived,
            "coordinates outside of the periodic box, moved into it");
-  if (periodic.any() && periodic != axes::all(s.dim()))
-    throw error("--periodic " + periodic.text() + ": all axes are periodic, or none is");
-  made.periodic = periodic.any();
+  made.periodic = periodic;
 }
 
 }  // namespace pairsum::files

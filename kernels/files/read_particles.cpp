@@ -95,7 +95,7 @@ std::string hash_of(const initial_condition& c) {
   column(c.omega_low);
   column(c.omega_high);
   column({c.H, c.eos.rho0, c.eos.B, c.gravity});
-  word(c.periodic);
+  word(c.periodic.on[0] | c.periodic.on[1] << 1 | c.periodic.on[2] << 2);
   std::string text;
   for (int digit = 15; digit >= 0; --digit) text += "0123456789abcdef"[hash >> (4 * digit) & 15];
   return text;
