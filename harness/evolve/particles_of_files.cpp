@@ -77,6 +77,9 @@ particles_of_request read(const run_request& r) {
   particles_of_request made{std::move(set.initial), set.dx, set.hash, r.particles, {}};
   for (const files::fact& f : set.facts)
     made.facts.push_back({one_line(f.what), one_line(f.value), word_of(f.how), one_line(f.from)});
+  if (r.H != 0) made.facts.push_back({"--H", number_text(r.H), "given", ""});
+  for (const auto& [word, text] : r.hints)
+    made.facts.push_back({word == "file_dim" ? "--dim" : option_of(word), text, "given", ""});
   return made;
 }
 
@@ -100,13 +103,15 @@ particles_of_request particles_of_files(const run_request&) {
 std::string table_of(const particles_of_request& read) {
   std::size_t what = 0, value = 0, how = 0;
   for (const auto& fact : read.facts) {
+    if (fact[0].starts_with("--")) continue;  // an option as it was given; what it did stands there, too
     what = std::max(what, fact[0].size());
     value = std::max(value, fact[1].size());
     how = std::max(how, fact[2].size());
   }
   std::string text;
   for (const auto& fact : read.facts)
-    text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {}\n", fact[0], what, fact[1], value, fact[2], how, fact[3]);
+    if (!fact[0].starts_with("--"))
+      text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {}\n", fact[0], what, fact[1], value, fact[2], how, fact[3]);
   return text;
 }
 

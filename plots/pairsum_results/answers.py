@@ -1,5 +1,7 @@
 """Which backend to take, in words and as values."""
 import dataclasses
+import pathlib
+import shlex
 from typing import Any
 
 import numpy as np
@@ -56,13 +58,16 @@ def answer(results: Results) -> Answer | None:
     over = {kind: _over(kind, candidates.drop(best), against, said, p["backend"], p["threads"]) for kind in _BASES}
     reason = _undecided(len(own), len(others), len(ties), said[best])
     where = results.environments.drop_duplicates("build").set_index("build").loc[0]
-    particles = f"{p['n_fluid']:,} fluid" + (f" and {p['n_boundary']:,} boundary" if p["n_boundary"] else "") + " particles"
+    many = f"{p['n_fluid']:,} fluid" + (f" and {p['n_boundary']:,} boundary" if p["n_boundary"] else "") + " particles"
     bases = [one for one in over.values() if one]
+    case = (", ".join(pathlib.PurePath(name).name for name in results.particles["files"][p["particles"]])
+            if p["case"] == "file" else p["case"])
+    particles = _read_from(results, p["particles"])
     if reason:
         text = f"On {where['host']} nothing is decided, because {reason}"
         backends = dict.fromkeys([p["backend"], *points["backend"].reindex(ties), *(points["backend"][one["point"]]
                                                                                     for one in bases)])
-        command = _command(p, backend=",".join(backends) if len(others) else "all",
+        command = _command(p, particles, backend=",".join(backends) if len(others) else "all",
                            rounds=2 * max(FEWEST_FOR_MEDIAN, len(own)))
     else:
         backends = candidates["backend"].nunique()
@@ -70,9 +75,9 @@ def answer(results: Results) -> Answer | None:
         text = f"On {where['host']} {said[best]} is the fastest of {measured}"
         if ties:
             text += f", tied with {first_few([said[k] for k in ties])}"
-        text += ": " * bool(bases) + " and ".join(_times_as_fast(one) for one in bases) + f", on {particles}"
-        command = _command(p, backend=p["backend"])
-    details = (f"{where['cpu']}, {where['cores']} cores: a whole step of {p['case']} ({particles}, dx {p['dx']:.10g}, "
+        text += ": " * bool(bases) + " and ".join(_times_as_fast(one) for one in bases) + f", on {many}"
+        command = _command(p, particles, backend=p["backend"])
+    details = (f"{where['cpu']}, {where['cores']} cores: a whole step of {case} ({many}, dx {p['dx']:.10g}, "
                f"{p['state']}, {p['precision']}, {p['interaction']}) takes {words.time(p['total_s'])} with {said[best]}.")
     gathers = candidates[candidates["backend"].isin(_BASES["gather"])].drop(best, errors="ignore")
     if len(gathers) and (nearest := int(gathers["time"].idxmin())) not in [one["point"] for one in bases]:
@@ -119,12 +124,24 @@ def _undecided(rounds: int, others: int, ties: int, winner: str) -> str:
     return f"no difference was resolved between {winner} and {rest}" if ties == others else ""
 
 
-def _command(p: Any, **more: Any) -> str:
+def _read_from(results: Results, particles: str) -> dict[str, str]:
+    """The options of `pairsum run` that read particles of files; none where a case makes them."""
+    if particles not in results.particles.index or not results.particles["files"][particles]:
+        return {}
+    files, facts = results.particles.loc[particles]
+    given = {what.removeprefix("--"): shlex.quote(value) for what, value, _, _ in facts if what.startswith("--")}
+    return {"particles": shlex.quote(",".join(files)), **given}
+
+
+def _command(p: Any, of_files: dict[str, str], **more: Any) -> str:
     """`pairsum run` of a point's problem and place; what is the program's default is left out."""
     given = {name: p[name] for name in ("case", "dx", "state", "grid", "threads", "M")}
-    given |= {name: p[name] for name, usual in _USUAL.items() if p[name] != usual}
-    if abs(p["H"] - 2 * p["dx"]) > 1e-9 * p["dx"]:
+    if of_files:
+        given = of_files | {name: given[name] for name in ("grid", "threads", "M")}
+    elif abs(p["H"] - 2 * p["dx"]) > 1e-9 * p["dx"]:
         given["H"] = p["H"]
+    given |= {name: p[name] for name, usual in _USUAL.items() if p[name] not in (usual, "none")
+              and not (of_files and name == "dim")}
     one = "," not in more["backend"] and more["backend"] != "all"
     if one and p["isa"] != "scalar":
         given["isa"] = p["isa"]

@@ -16,7 +16,7 @@ _MACHINE = {"host": "host", "cpu": "processor", "cores": "cores", "limits": "lim
 _PROBLEM = {"study": "study", "case": "case", "dim": "dimensions", "state": "state", "order": "order in memory",
             "dx": "spacing", "H": "support radius", "n_fluid": "fluid particles", "n_boundary": "boundary particles",
             "precision": "precision", "interaction": "interaction", "smoothing": "smoothing kernel",
-            "integrator": "integrator", "dt": "time step", "seed": "seed"}
+            "integrator": "integrator", "dt": "time step", "seed": "seed", "particles": "particles (hash)"}
 
 
 def facts(report: Report) -> Iterator[Table]:
@@ -25,6 +25,8 @@ def facts(report: Report) -> Iterator[Table]:
     environments = r.environments.reindex(columns=[*_MACHINE])
     yield _turned("Machines and builds", environments, _MACHINE, list(r.environments["host"]))
     yield _turned("Problems that were measured", r.series, _PROBLEM, list(worlds(r)))
+    for hash_of, said in r.particles[r.particles.index.isin(r.series["particles"])].iterrows():
+        yield Table(f"Where the particles {hash_of} come from", ["what", "value", "how", "from"], said["facts"], 4)
     yield Table(*words.hoisted(
         "Peaks of the machine", ["threads", "precision", "Gflop/s", "GB/s"],
         [[str(e.threads), e.precision, words.short(1e-9 * e.flops_per_s), words.short(1e-9 * e.bandwidth_bytes_per_s)]

@@ -11,7 +11,7 @@ from .rows import PHASES, ResultsError, read
 
 #: The columns that tell points apart, in the order in which points are listed.
 POINT = ["case", "state", "dx", "H", "n_fluid", "n_boundary", "order", "dim", "precision", "interaction", "smoothing",
-         "integrator", "dt", "backend", "grid", "isa", "block", "granularity", "M", "threads"]
+         "integrator", "dt", "particles", "backend", "grid", "isa", "block", "granularity", "M", "threads"]
 #: Those in which points of a series may differ.
 PLACE = ["backend", "grid", "isa", "block", "granularity", "M", "threads"]
 COMMON = [name for name in POINT if name not in PLACE]
@@ -38,6 +38,7 @@ class Results:
     series        index `series`: what its points share; only points of one series are compared
     environments  a line per machine and build that rows name, with `build` (0, 1, ...) and `build_name`
     backends      index `name`: what each says of itself; null in rows of schema 2
+    particles     those that no case makes: `particles` (their hash), `files`, `facts` (what, value, how, from)
     peaks, paces  what the machine does at best; what it did in a round
     closed        the round rows of finished rounds
     failed        points with rows that did not pass the verification, which are in no other place
@@ -50,6 +51,7 @@ class Results:
     series: pd.DataFrame
     environments: pd.DataFrame
     backends: pd.DataFrame
+    particles: pd.DataFrame
     peaks: pd.DataFrame
     paces: pd.DataFrame
     closed: pd.DataFrame
@@ -117,10 +119,11 @@ def collect(rows: dict[str, pd.DataFrame], allow_mixed: bool = False) -> Results
     series = series.join(first[["environment", "build_name"]], on="build")
     rounds = rounds.join(points[["study", "series", "build", *POINT]], on="point")
     rounds = rounds.join(first[["host", "cpu", "git"]], on="build").sort_values(["point", "file", "round"])
+    particles = rows["particles"].drop_duplicates("particles").set_index("particles")[["files", "facts"]]
     peaks, paces = _peaks(rows["peak"], paces, environments)
     sources = list(dict.fromkeys(pd.concat([rows[kind]["source"] for kind in rows if kind != "copies"])))
     return Results(sources, samples, rounds.reset_index(drop=True), points.drop(columns="fewest_steps"), series,
-                   environments, backends, peaks, paces, closed, failed, len(rows["void"]), together, caveats)
+                   environments, backends, particles, peaks, paces, closed, failed, len(rows["void"]), together, caveats)
 
 
 def cells_words(p) -> str:
@@ -166,6 +169,7 @@ def _with_points(samples: pd.DataFrame) -> pd.DataFrame:
     null where the particles do not depend on it, and "isa" is scalar where one pair was summed at a time: rows used to
     name that of the build."""
     samples["block"] = samples["block"].fillna("none")
+    samples["particles"] = samples["particles"].fillna("")
     raw = samples.groupby(["file", *POINT], dropna=False, sort=False).ngroup()
     alone = samples["cells"].notna() & ~(samples["vector_units.lanes"] > 1)
     samples.loc[alone.groupby(raw).transform("any"), "isa"] = "scalar"

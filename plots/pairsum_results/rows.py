@@ -19,7 +19,7 @@ PHASES = ["index_s", "prepare_s", "zero_s", "sum_s", "reduce_s", "integrate_s", 
 _POINT = {"case": "text", "state": "text", "dx": "number", "H": "number", "n_fluid": "count", "n_boundary": "count",
           "order": "text", "dim": "from one", "precision": "text", "interaction": "text", "smoothing": "text",
           "integrator": "text", "dt": "number", "backend": "text", "grid": "text", "M": "from one?",
-          "threads": "from one", "granularity": "text", "isa": "text", "block": "text"}
+          "threads": "from one", "granularity": "text", "isa": "text", "block": "text", "particles": "hex"}
 _WORK = {**dict.fromkeys(("cells", "cells_nonempty", "sumF1", "sumF2", "pairs_tested", "pairs_interacting",
                           "pairs_fluid_fluid", "pairs_fluid_boundary"), "count"),
          "pairs_tested_unfolded": "count?", "flops": "amount?", "bytes": "amount?",
@@ -46,8 +46,9 @@ _KINDS: dict[str, dict[str, Any]] = {
     "round": {**_IN_ROUND, "part": "text", "replicate": "from one", "plan": "hex", "seed": "count", "rows": "count",
               "elapsed_s": "positive", "others_share": "amount?"},
     "void": {"round": "from one", "reason": "text"},
-    "end": {"plan": "hex", "reason": "text"}}
-_OPTIONAL = {"error", "work.vector_units", "limits"}
+    "end": {"plan": "hex", "reason": "text"},
+    "particles": {"particles": "hex", "files": "list of texts", "facts": "facts"}}
+_OPTIONAL = {"error", "work.vector_units", "limits", "point.particles"}
 _SINCE_3 = {"lost", "threads_worked", "work.flops", "work.bytes"}
 _SELDOM_IN_2 = {"point.block", "workspace_bytes"}
 #: Objects whose keys are columns by their full names; those of the others, as "sum_s", tell what they are.
@@ -87,6 +88,9 @@ _TESTS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "counts": (lambda v: type(v) is dict and all(type(n) is int and n >= 0 for n in v.values()),
                "an object of integers >= 0"),
     "texts": (lambda v: type(v) is dict and all(map(_is_text, v.values())), "an object of strings"),
+    "list of texts": (lambda v: type(v) is list and all(map(_is_text, v)), "an array of strings"),
+    "facts": (lambda v: type(v) is list and all(type(f) is list and len(f) == 4 and all(map(_is_text, f)) for f in v),
+              "an array of arrays of 4 strings"),
     "times": (lambda v: type(v) is list and all(type(one) is list and all(_is_number(s) and s >= 0 for s in one)
                                                 for one in v), "an array of arrays of numbers >= 0")}
 
@@ -200,7 +204,7 @@ def _parsed(path: pathlib.Path) -> list[dict]:
 
 def _order_faults(rows: Iterable[tuple[int, dict]]) -> Iterable[tuple[int, str]]:
     """What is wrong with the order of rows that are right by themselves."""
-    known, backends, closed, samples = set(), set(), set(), {}
+    known, backends, particles, closed, samples = set(), set(), set(), set(), {}
     for line, row in rows:
         kind, environment, of_round = row["kind"], row.get("environment"), (row["study"], row.get("round"))
         if kind == "environment":
@@ -209,6 +213,10 @@ def _order_faults(rows: Iterable[tuple[int, dict]]) -> Iterable[tuple[int, str]]
             yield line, f'key "environment" should name an environment row before it, is "{environment}"'
         if kind == "backend":
             backends.add((environment, row["name"]))
+        if kind == "particles":
+            particles.add(row["particles"])
+        if kind == "sample" and row["point"].get("particles", "") not in {"", *particles}:
+            yield line, f'key "point.particles" should name a particles row before it, is "{row["point"]["particles"]}"'
         if kind == "sample" and ("error" in row) == (row["phases"] is not None):
             yield line, ('key "phases" should be ' + ('null in a row with "error"' if "error" in row else
                                                       'an object in a row without "error"')
