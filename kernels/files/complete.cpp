@@ -262,6 +262,11 @@ void complete_columns(set_in_making& s) {
          told.B     ? "by option"
          : header_B ? "the header"
                     : "speed of sound of " + number_text(eos.sound_speed0()) + " m/s");
+  if (const auto gravity = s.first([](const file_content& c) { return c.gravity; })) {
+    if (!std::isfinite(*gravity)) throw error(s.named() + ": gravity is " + number_text(*gravity));
+    s.made.initial.gravity = *gravity;
+    s.tell("gravity", number_text(*gravity), origin::read, "the header");
+  }
 }
 
 void choose_H(set_in_making& s) {

@@ -246,9 +246,9 @@ void dialect_reader::box(const std::string& group, std::size_t axes_of_file) {
     high = edges->size() == 1 ? std::vector<double>(axes_of_file, edges->front()) : *edges;
     low.assign(high.size(), 0.0);
   }
-  if (low.size() != high.size() || (!low.empty() && low.size() < axes_of_file && low.size() < 3))
-    throw error(first_.path() + ": the box has " + std::to_string(high.size()) + " edges, should have one or " +
-                std::to_string(axes_of_file));
+  if (low.size() != high.size())
+    throw error(first_.path() + ": the box has " + std::to_string(low.size()) + " low and " +
+                std::to_string(high.size()) + " high ends");
   const auto periodic = attribute(group, names_.axes);
   if (low.empty()) return;
   axes on = names_.periodic ? axes::all(3) : axes{};
@@ -266,6 +266,8 @@ void dialect_reader::header(std::vector<particle_group>& groups) {
   content.time = one(names_.time);
   content.rho0 = one(names_.rho0);
   content.B = one(names_.B);
+  content.gravity = one(names_.gravity);
+  content.dx = one(names_.dx);
   const std::size_t axes_of_file = groups.front().x.size();
   if (const auto dim = one(names_.dim)) {
     if (*dim != 1 && *dim != 2 && *dim != 3)

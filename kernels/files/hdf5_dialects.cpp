@@ -20,6 +20,7 @@ constexpr hdf5_dialect gadget{
     .function = "HydroScheme@Kernel function",
     .masses = "Header@MassTable", .counts = "Header@NumPart_ThisFile", .files = "Header@NumFilesPerSnapshot",
     .rho0 = "Header@Rho0", .B = "Header@B", .H = "Header@SupportRadius",
+    .gravity = "Header@Gravity", .dx = "Header@Spacing",
     .support = 1, .periodic = true};
 
 constexpr hdf5_dialect swift = [] {

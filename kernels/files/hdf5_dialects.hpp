@@ -34,9 +34,10 @@ struct hdf5_dialect {
       "";  ///< an attribute: the mass of all particles of a group, by its number; 0 means a column
   std::string_view counts = "";  ///< an attribute: how many particles a group has, by its number
   std::string_view files = "";   ///< an attribute: how many files hold the particles, NAME.0.hdf5, NAME.1.hdf5, ...
-  std::string_view rho0 = "", B = "", H = "";  ///< reference density, stiffness, support radius: attributes
-  double support = 2;                          ///< support radius over smoothing length, unless the file says it
-  bool periodic = false;                       ///< along every axis with a box, unless the file says it
+  std::string_view rho0 = "", B = "", H = "", gravity = "",
+                   dx = "";  ///< reference density, stiffness, support radius, gravity, spacing: attributes
+  double support = 2;        ///< support radius over smoothing length, unless the file says it
+  bool periodic = false;     ///< along every axis with a box, unless the file says it
 };
 
 /// All dialects; the first whose groups and marks a file has is its own.

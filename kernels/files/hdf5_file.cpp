@@ -17,21 +17,6 @@ constexpr hsize_t most_rows = 0xffffffffu - 1024;  ///< as the library counts pa
 constexpr double bytes_per_row = 200;              ///< that reading takes, both processes together
 constexpr double most_idle_bytes = 1 << 26;        ///< of a chunk that rows do not fill
 
-/// The last words of HDF5: what it tried when it failed.
-std::string last_words() {
-  std::string words;
-  H5Ewalk2(
-      H5E_DEFAULT, H5E_WALK_UPWARD,
-      [](unsigned n, const H5E_error2_t* e, void* to) -> herr_t {
-        if (n == 0 && e->desc != nullptr) *static_cast<std::string*>(to) = e->desc;
-        return 0;
-      },
-      &words);
-  std::ranges::replace_if(
-      words, [](unsigned char c) { return c < ' '; }, ' ');
-  return words.empty() ? "HDF5 says no more" : words;
-}
-
 /// As HDF5 calls it; the root has a name of its own.
 const char* named(const std::string& object) { return object.empty() ? "/" : object.c_str(); }
 
@@ -50,12 +35,26 @@ hsize_t rows_of_chunk(hid_t dataset) {
 
 }  // namespace
 
+std::string hdf5_last_words() {
+  std::string words;
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_UPWARD,
+      [](unsigned n, const H5E_error2_t* e, void* to) -> herr_t {
+        if (n == 0 && e->desc != nullptr) *static_cast<std::string*>(to) = e->desc;
+        return 0;
+      },
+      &words);
+  std::ranges::replace_if(
+      words, [](unsigned char c) { return c < ' '; }, ' ');
+  return words.empty() ? "HDF5 says no more" : words;
+}
+
 void hdf5_file::fail(const std::string& object, const std::string& why) const {
   throw error(path_ + (object.empty() ? "" : ": " + object) + ": " + why);
 }
 
 hdf5_file::hdf5_file(std::string path) : path_(std::move(path)), file_(open_quietly(path_), H5Fclose) {
-  if (!file_) fail("", "cannot be opened as HDF5: " + last_words());
+  if (!file_) fail("", "cannot be opened as HDF5: " + hdf5_last_words());
 }
 
 bool hdf5_file::has(const std::string& object) const {
@@ -90,7 +89,7 @@ std::optional<std::vector<double>> hdf5_file::numbers(const std::string& object,
   if ((kind != H5T_INTEGER && kind != H5T_FLOAT) || n < 1 || n > most_numbers) return {};
   std::vector<double> all(static_cast<std::size_t>(n));
   if (H5Aread(opened, H5T_NATIVE_DOUBLE, all.data()) < 0)
-    fail(object, "cannot read " + attribute + ": " + last_words());
+    fail(object, "cannot read " + attribute + ": " + hdf5_last_words());
   return all;
 }
 
@@ -117,7 +116,7 @@ std::optional<std::string> hdf5_file::text(const std::string& object, const std:
 
 hdf5_handle hdf5_file::open(const std::string& dataset) const {
   hdf5_handle opened(H5Dopen2(file_, named(dataset), H5P_DEFAULT), H5Dclose);
-  if (!opened) fail(dataset, "is no dataset that HDF5 can open: " + last_words());
+  if (!opened) fail(dataset, "is no dataset that HDF5 can open: " + hdf5_last_words());
   return opened;
 }
 
@@ -159,7 +158,7 @@ void hdf5_file::read(const std::string& dataset, std::span<const std::size_t> wh
   const auto [rows, columns] = shape_of(dataset);
   const hdf5_handle opened = open(dataset), space(H5Dget_space(opened), H5Sclose);
   const auto check = [&](herr_t done) {
-    if (done < 0) fail(dataset, "cannot be read: " + last_words());
+    if (done < 0) fail(dataset, "cannot be read: " + hdf5_last_words());
   };
   if (columns == 1) return check(H5Dread(opened, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, to[0]));
   const hsize_t chunk = std::max<hsize_t>(rows_of_chunk(opened), 1);

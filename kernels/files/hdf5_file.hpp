@@ -1,31 +1,13 @@
 #pragma once
-#include <hdf5.h>
-
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <pairsum/files/hdf5_handle.hpp>
+
 namespace pairsum::files {
-
-/// Owns what HDF5 numbers.
-class hdf5_handle {
- public:
-  hdf5_handle() = default;
-  hdf5_handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  hdf5_handle(hdf5_handle&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
-  hdf5_handle& operator=(hdf5_handle&&) = delete;
-  ~hdf5_handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  explicit operator bool() const { return id_ >= 0; }
-  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): for calls of the library
-
- private:
-  hid_t id_ = -1;
-  herr_t (*close_)(hid_t) = nullptr;
-};
 
 /// An HDF5 file to read from, without what it must not do to us: no count is believed before it was compared with what
 /// is stored. Paths of objects have no leading slash; the empty path is the root. Errors are pairsum::error with one

@@ -1,0 +1,282 @@
+"""What the dialects of HDF5 mean: every trait of files that programs write."""
+
+import h5py
+import numpy as np
+import pytest
+from conftest import Particles, columns, dataset, gadget, read
+
+
+def same(path, tmp_path, p, order=slice(None), **options):
+    """Reads a file; its particles must be p's, in that order, to the last bit."""
+    result = read(path, out=tmp_path / "out.hdf", **options)
+    assert result.code == 0, result.error
+    got = columns(tmp_path / "out.hdf")
+    for name, expected in [("Coordinates", p.x), ("Velocities", p.v), ("Density", p.rho), ("Masses", p.m)]:
+        assert np.array_equal(got[name], np.asarray(expected, "f8")[order]), name
+    return result
+
+
+@pytest.mark.parametrize("packed", [False, True])
+@pytest.mark.parametrize("plural", [False, True])
+@pytest.mark.parametrize("types", [6, 7])
+def test_gadget_and_swift(tmp_path, particles, plural, packed, types):
+    path = gadget(tmp_path / "a.hdf5", particles, plural=plural, packed=packed, types=types)
+    result = same(path, tmp_path, particles, **({"support": 1.5} if plural else {}))
+    assert result.set["H"] == particles.h.max() * (1.5 if plural else 1)
+    assert result.set["periodic"] and result.set["low"] == [0, 0, 0] and result.set["high"] == [1, 1, 1]
+    assert result.set["time"] == 0.25 and result.set["fluid"] == len(particles)
+    assert ("swift" if plural else "gadget") in result.fact["file"]["from"]
+
+
+def test_floats_become_the_same_doubles(tmp_path, particles):
+    for name in ("x", "v", "rho", "m", "h"):
+        setattr(particles, name, getattr(particles, name).astype("f4"))
+    same(gadget(tmp_path / "a.hdf5", particles, kind="f4"), tmp_path, particles)
+
+
+def test_many_chunks_are_read_in_their_order(tmp_path):
+    p = Particles(150_000)
+    same(gadget(tmp_path / "a.hdf5", p, packed=True), tmp_path, p)
+
+
+@pytest.mark.parametrize("where", ["HydroScheme", "Parameters"])
+def test_the_kernel_gamma_is_the_support(tmp_path, particles, where):
+    path = gadget(tmp_path / "a.hdf5", particles, plural=True)
+    assert "--support" in read(path).error
+    with h5py.File(path, "a") as file:
+        file.create_group(where).attrs["Kernel gamma"] = np.array([1.25], "f4")
+    result = read(path)
+    assert result.set["H"] == 1.25 * particles.h.max()
+    assert result.fact["support"]["how"] == "read"
+    assert read(path, support=2).set["H"] == 2 * particles.h.max()
+
+
+@pytest.mark.parametrize("function, gamma", [("Cubic spline (M4)", 1.825742), ("Quintic spline (M6)", 2.195775),
+                                             ("Wendland C2", 1.936492)])
+def test_the_kernels_name_says_gamma(tmp_path, particles, function, gamma):
+    path = gadget(tmp_path / "a.hdf5", particles)
+    with h5py.File(path, "a") as file:
+        file.create_group("HydroScheme").attrs["Kernel function"] = np.bytes_(function)
+    result = read(path)
+    assert result.set["H"] == gamma * particles.h.max()
+    assert result.fact["support"]["how"] == "derived"
+
+
+def test_box_of_three_edges_and_axes_that_are_not_periodic(tmp_path, particles):
+    path = gadget(tmp_path / "a.hdf5", particles, header={"BoxSize": [1.0, 2.0, 3.0]})
+    assert read(path).set["high"] == [1, 2, 3]
+    with h5py.File(path, "a") as file:
+        file.create_group("RuntimePars").attrs["PeriodicBoundariesOn"] = np.array([0], "i4")
+    assert not read(path, support=1).set["periodic"]
+    assert read(path, support=1, periodic="all").set["periodic"]
+
+
+def test_coordinates_outside_of_a_periodic_box_are_wrapped(tmp_path, particles):
+    particles.x[3] = [-0.25, 0.5, 1.5]
+    path = gadget(tmp_path / "a.hdf5", particles)
+    result = read(path, out=tmp_path / "out.hdf")
+    assert result.set["wrapped"] == 2
+    assert columns(tmp_path / "out.hdf")["Coordinates"][3].tolist() == [0.75, 0.5, 0.5]
+    assert result.fact["wrapped"]["value"] == "2"
+    widened = read(path, periodic="none")
+    assert widened.set["low"] == [-0.25, 0, 0] and widened.set["high"] == [1, 1, 1.5]
+    assert "widened along x, z" in widened.fact["box"]["from"]
+
+
+def test_masses_by_table(tmp_path, particles):
+    particles.m = np.full(len(particles), 0.125)
+    path = gadget(tmp_path / "a.hdf5", particles, leave=("Masses",), header={"MassTable": [0.125, 0, 0, 0, 0, 0]})
+    assert same(path, tmp_path, particles).fact["mass"]["how"] == "read"
+
+
+def test_without_masses_velocities_and_density(tmp_path, particles):
+    path = gadget(tmp_path / "a.hdf5", particles, leave=("Masses", "Velocities", "Density"))
+    assert "--rho0" in read(path).error
+    result = read(path, rho0=2, out=tmp_path / "out.hdf")
+    got = columns(tmp_path / "out.hdf")
+    assert (got["Velocities"] == 0).all() and result.fact["velocity"]["how"] == "assumed"
+    assert (got["Density"] == 2).all() and result.fact["density"]["how"] == "assumed"
+    distance = np.linalg.norm(particles.x[:, None] - particles.x, axis=2) + 9 * np.eye(len(particles))
+    assert result.set["dx"] == pytest.approx(np.median(distance.min(axis=1)), rel=0.02)
+    assert (got["Masses"] == 2 * result.set["dx"] ** 3).all() and result.fact["mass"]["how"] == "derived"
+
+
+def test_mass_alone_says_the_density(tmp_path, particles):
+    path = gadget(tmp_path / "a.hdf5", particles, leave=("Density",))
+    result = read(path)
+    assert result.set["rho0"] == pytest.approx(np.median(particles.m) / result.set["dx"] ** 3, rel=0.02)
+    assert result.fact["rho0"]["how"] == "derived"
+
+
+def test_part_type_1_alone_is_fluid(tmp_path, particles):
+    same(gadget(tmp_path / "a.hdf5", particles, number=1), tmp_path, particles)
+
+
+def test_other_types_are_left_out_or_boundary(tmp_path, particles):
+    path, wall = gadget(tmp_path / "a.hdf5", particles), Particles(50, seed=2)
+    with h5py.File(path, "a") as file:
+        group = file.create_group("PartType3")
+        for name, values in [("Coordinates", wall.x), ("Velocities", wall.v), ("Density", wall.rho), ("SmoothingLength", wall.h)]:
+            dataset(group, name, values)
+        file["Header"].attrs["NumPart_ThisFile"] = [len(particles), 0, 0, 50, 0, 0]
+        file["Header"].attrs["MassTable"] = [0, 0, 0, 0.5, 0, 0]
+    result = same(path, tmp_path, particles)
+    assert result.fact["left out"]["value"] == "50 of PartType3"
+    result = read(path, boundary_kind="PartType=3", out=tmp_path / "out.hdf")
+    assert (result.set["fluid"], result.set["particles"]) == (200, 250)
+    got = columns(tmp_path / "out.hdf")
+    assert np.array_equal(got["Coordinates"], np.vstack([particles.x, wall.x]))
+    assert np.array_equal(got["Masses"], np.append(particles.m, np.full(50, 0.5)))
+    assert np.array_equal(got["Kind"], np.repeat([0, 1], [200, 50]))
+
+
+def test_a_snapshot_of_several_files(tmp_path):
+    p = Particles(300)
+    for k in range(3):
+        part = Particles(300)
+        for name in ("x", "v", "rho", "m", "h"):
+            setattr(part, name, getattr(p, name)[100 * k:100 * k + 100])
+        gadget(tmp_path / f"snap.{k}.hdf5", part, header={"NumFilesPerSnapshot": 3})
+    same(tmp_path / "snap.1.hdf5", tmp_path, p)
+    (tmp_path / "snap.2.hdf5").rename(tmp_path / "away.hdf5")
+    assert "snap.2.hdf5 cannot be read" in read(tmp_path / "snap.0.hdf5").error
+    assert "its name has no number" in read(tmp_path / "away.hdf5").error
+
+
+def pysph(path, groups, constant_z=None):
+    with h5py.File(path, "w") as file:
+        file.create_group("solver_data").attrs["t"] = 1.5
+        for name, p in groups.items():
+            arrays = file.create_group(f"particles/{name}/arrays")
+            z = p.x[:, 2] if constant_z is None else np.full(len(p), constant_z)
+            w = p.v[:, 2] if constant_z is None else np.zeros(len(p))
+            data = dict(x=p.x[:, 0], y=p.x[:, 1], z=z, u=p.v[:, 0], v=p.v[:, 1], w=w, rho=p.rho, m=p.m, h=p.h)
+            for column, values in data.items():
+                arrays.create_dataset(column, data=values, compression="gzip")
+    return path
+
+
+def test_pysph_kinds_by_name(tmp_path):
+    fluid, wall, block = Particles(100), Particles(60, 2), Particles(40, 3)
+    path = pysph(tmp_path / "a.hdf5", {"boundary": wall, "fluid": fluid, "obstacle": block})
+    result = read(path, out=tmp_path / "out.hdf")
+    assert (result.set["fluid"], result.set["particles"], result.set["time"]) == (100, 200, 1.5)
+    assert np.array_equal(columns(tmp_path / "out.hdf")["Coordinates"], np.vstack([fluid.x, wall.x, block.x]))
+    assert result.set["H"] == 2 * fluid.h.max() and not result.set["periodic"]
+    assert read(path, boundary_kind="none").set["fluid"] == 200
+    assert read(path, boundary_kind="name=obstacle").set["fluid"] == 160
+
+
+def test_2d_in_three_columns_is_found(tmp_path):
+    path = pysph(tmp_path / "a.hdf5", {"fluid": Particles(100)}, constant_z=0.5)
+    result = read(path)
+    assert result.set["dim"] == 2 and "z is constant" in result.fact["dim"]["from"]
+    assert read(path, dim=3, H=0.5).set["dim"] == 3
+
+
+def test_x_and_z_become_x_and_y(tmp_path, particles):
+    particles.x[:, 1] = 0.1
+    path = gadget(tmp_path / "a.hdf5", particles, header={"BoxSize": [1.0, 5.0, 2.0]})
+    result = read(path, out=tmp_path / "out.hdf")
+    got = columns(tmp_path / "out.hdf")
+    assert result.set["dim"] == 2 and result.set["high"] == [1, 2]
+    assert np.array_equal(got["Coordinates"][:, :2], particles.x[:, [0, 2]]) and (got["Coordinates"][:, 2] == 0).all()
+    assert np.array_equal(got["Velocities"][:, :2], particles.v[:, [0, 2]])
+    assert "y is constant; the columns x, z are x and y" in result.fact["dim"]["from"]
+
+
+def h5part(path, steps, sph_exa=False):
+    with h5py.File(path, "w") as file:
+        for number, p in steps.items():
+            group = file.create_group(f"Step#{number}")
+            group.attrs["time"] = number / 4
+            if sph_exa:
+                group.attrs["box"] = [-1.0, 2.0, 0.0, 1.0, 0.0, 1.5]
+                group.attrs["boundaryType"] = np.array([1, 1, 1], "i1")
+            for k, axis in enumerate("xyz"):
+                group[axis], group[f"v{axis}"] = p.x[:, k], p.v[:, k]
+            group["h"], group["m"], group["rho"] = p.h, p.m, p.rho
+    return path
+
+
+def test_h5part_takes_the_last_step_or_the_one_told(tmp_path):
+    steps = {2: Particles(50), 10: Particles(60, 2), 9: Particles(70, 3)}
+    path = h5part(tmp_path / "a.h5", steps)
+    assert same(path, tmp_path, steps[10]).set["time"] == 2.5
+    result = same(path, tmp_path, steps[9], step=9)
+    assert not result.set["periodic"] and result.set["H"] == 2 * steps[9].h.max()
+    assert "no step 3" in read(path, step=3).error
+
+
+def test_sph_exa_has_a_box(tmp_path, particles):
+    result = same(h5part(tmp_path / "a.h5", {0: particles}, sph_exa=True), tmp_path, particles)
+    assert result.set["low"] == [-1, 0, 0] and result.set["high"] == [2, 1, 1.5] and result.set["periodic"]
+    assert "sph_exa" in result.fact["file"]["from"]
+
+
+def test_vtkhdf(tmp_path, particles):
+    path = tmp_path / "a.hdf"
+    with h5py.File(path, "w") as file:
+        file.create_group("VTKHDF").attrs["Type"] = np.bytes_("UnstructuredGrid")
+        file["VTKHDF/Points"] = particles.x
+        for name, values in [("Velocity", particles.v), ("rho", particles.rho), ("Mass", particles.m)]:
+            file[f"VTKHDF/PointData/{name}"] = values
+    assert "--H" in read(path).error
+    same(path, tmp_path, particles, H=0.3)
+
+
+def test_columns_by_option(tmp_path, particles):
+    path = gadget(tmp_path / "a.hdf5", particles)
+    with h5py.File(path, "a") as file:
+        file["PartType0/Mine"] = np.column_stack([particles.rho, 3 * particles.rho])
+    result = read(path, column="rho=Mine:1", out=tmp_path / "out.hdf")
+    assert np.array_equal(columns(tmp_path / "out.hdf")["Density"], 3 * particles.rho), result.error
+    assert "has no None for rho" in read(path, column="rho=None").error
+    assert "no Mine:2" in read(path, column="rho=Mine:2").error
+
+
+def test_boundary_by_a_column(tmp_path, particles):
+    path = gadget(tmp_path / "a.hdf5", particles)
+    with h5py.File(path, "a") as file:
+        file["PartType0/Type"] = np.arange(200) % 4
+    result = read(path, boundary_kind="Type=0,1", out=tmp_path / "out.hdf")
+    assert result.set["fluid"] == 100
+    order = np.concatenate([np.flatnonzero(np.arange(200) % 4 > 1), np.flatnonzero(np.arange(200) % 4 < 2)])
+    same(path, tmp_path, particles, order, boundary_kind="Type=0,1")
+    assert "no column Sort" in read(path, boundary_kind="Sort=1").error
+
+
+def test_varying_h(tmp_path, particles):
+    h = np.linspace(0.2, 0.29, len(particles))
+    path = gadget(tmp_path / "a.hdf5", particles, h=h)
+    assert read(path).set["H"] == 0.29
+    assert "a factor of 1.45" in read(path).fact["h"]["value"]
+    assert read(path, h_quantile=0.5).set["H"] == h[99]
+    wide = gadget(tmp_path / "b.hdf5", particles, h=2 * h - 0.2)
+    assert "--H" in read(wide).error and "a factor of 1.9" in read(wide).error
+    assert read(wide, H=0.3).set["H"] == 0.3
+
+
+def test_several_files_and_their_kinds(tmp_path):
+    fluid, wall = Particles(100), Particles(80, 2)
+    a, b = gadget(tmp_path / "a.hdf5", fluid), gadget(tmp_path / "b.hdf5", wall, leave=("Density",))
+    result = read(a, f"{b}:boundary", out=tmp_path / "out.hdf")
+    assert (result.set["fluid"], result.set["particles"]) == (100, 180)
+    got = columns(tmp_path / "out.hdf")
+    assert np.array_equal(got["Coordinates"], np.vstack([fluid.x, wall.x]))
+    assert np.array_equal(got["Density"], np.append(fluid.rho, np.full(80, result.set["rho0"])))
+    assert result.set["hash"] == read(f"{b}:boundary", f"{a}:fluid").set["hash"]
+    assert "no particle is fluid" in read(f"{a}:boundary").error
+
+
+def test_box_by_option(tmp_path, particles):
+    path = gadget(tmp_path / "a.hdf5", particles, header={"BoxSize": 0.0})
+    result = read(path)
+    H = particles.h.max()
+    assert result.set["low"] == pytest.approx((particles.x.min(0) - H).tolist()) and not result.set["periodic"]
+    assert "--box" in read(path, periodic="all").error
+    assert read(path, periodic="all", box="1,2,3").set["high"] == [1, 2, 3]
+    assert read(path, box="-1,-1,-1,1,2,3").set["low"] == [-1, -1, -1]
+    assert "outside of --box" in read(path, box="1,1,0.5").error
+    assert "--box has 4 numbers" in read(path, box="1,1,1,1").error
+    assert "--periodic" in read(path, periodic="w", box="1,1,1").error
