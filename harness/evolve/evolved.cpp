@@ -75,7 +75,7 @@ particles_of_request evolved(std::string_view case_name, const case_parameters& 
   saved_moment saved = read_moment(file);
   if (saved.settings != words) throw error(fmt::format("{} is not {}; delete it", file.string(), called));
   made.initial.particles = std::move(saved.what.particles);
-  made.hash = hash_of(made.initial.particles);
+  made.hash = saved.hash;
   if (c.H != 0) made.initial.H = c.H;
   const auto tell = [&](const char* what, std::string value, const char* from) {
     made.facts.push_back({what, std::move(value), "derived", from});

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <pairsum/cases/case.hpp>
 #include "harness/evolve/simulation.hpp"
@@ -17,11 +18,12 @@ void write_moment(const std::filesystem::path& file, const moment& m, const init
 struct saved_moment {
   moment what;
   std::string settings;
+  std::string hash;  ///< 16 hex digits of particles and domain
 };
 saved_moment read_moment(const std::filesystem::path& file);
 
-/// 16 hex digits of the particles' bits.
-std::string hash_of(const particle_table& p);
+/// A series of such files for ParaView, as XDMF.
+void write_series(const std::filesystem::path& file, const std::vector<std::filesystem::path>& moments);
 
 /// Can this build write and read them? Else why not, one line.
 std::string why_no_moment_files();

@@ -105,6 +105,16 @@ fs::path snapshot_file(const fs::path& folder, double t, double period) {
   return folder / fmt::format("snapshot_{:04}.hdf", std::lround(t / period));
 }
 
+std::vector<fs::path> snapshots_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const std::string name = entry.path().filename().string();
+        name.starts_with("snapshot_") && name.ends_with(".hdf"))
+      found.push_back(entry.path());
+  std::ranges::sort(found);
+  return found;
+}
+
 }  // namespace
 
 simulate_result simulate(const simulate_request& asked, const moment_reader& at) {
@@ -144,18 +154,21 @@ simulate_result simulate(const simulate_request& asked, const moment_reader& at)
     if (log) log->write(m, balance_of(m.particles, domain.gravity, domain.eos));
   };
   /// A checkpoint comes last: what it goes on from is all there.
-  const auto keep = [&](const moment& m, bool snapshot) {
+  const auto keep = [&](const moment& m, bool snapshot, bool ends) {
     shown.clear();
-    if (snapshot) at(m, domain);
+    if (snapshot || ends) at(m, domain);
     if (!keeps) return;
     log->flush();
-    if (snapshot) write_moment(snapshot_file(r.snapshots, m.t, r.every), m, domain, settings);
+    if (snapshot) {
+      write_moment(snapshot_file(r.snapshots, m.t, r.every), m, domain, settings);
+      write_series(r.snapshots / "snapshots.xmf", snapshots_in(r.snapshots));
+    }
     write_moment(checkpoint, m, domain, settings);
   };
   if (first_step == 0) {
     const moment m = run.save();
     record(m);
-    keep(m, true);
+    keep(m, true, false);
   }
   note_interrupts();
   stopwatch clock;
@@ -168,7 +181,7 @@ simulate_result simulate(const simulate_request& asked, const moment_reader& at)
     if (snapshot || checkpoints.due(run.t()) || ends) {
       const moment m = run.save();
       record(m);
-      keep(m, snapshot || ends);
+      keep(m, snapshot, ends);
       logs.pass(run.t());
     } else if (logs.due(run.t())) {
       record(run.look());

@@ -8,6 +8,7 @@
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/names.hpp>
+#include <pairsum/files/hdf5_file.hpp>
 #include <pairsum/files/hdf5_handle.hpp>
 #include <pairsum/files/whole_file.hpp>
 
@@ -127,7 +128,7 @@ void write_header(hdf5_writer& out, const initial_condition& c, const snapshot& 
   std::vector<std::int32_t> periodic;
   for (std::size_t d = 0; d < dim; ++d) {
     edges[d] = c.omega_high[d] - c.omega_low[d];
-    periodic.push_back(c.periodic);
+    periodic.push_back(c.periodic[static_cast<int>(d)]);
   }
   numbers("BoxSize", edges);
   numbers("BoxLow", c.omega_low);
@@ -140,7 +141,9 @@ void write_header(hdf5_writer& out, const initial_condition& c, const snapshot& 
   numbers("Gravity", {c.gravity});
   if (about.dx > 0) numbers("Spacing", {about.dx});
   out.attribute(header, "Step", std::vector<std::uint64_t>{about.step});
-  out.attribute(header, "Lost", std::vector<std::uint64_t>{lost});
+  out.attribute(header, "Lost", std::vector<std::uint64_t>{about.lost + lost});
+  numbers("NextTimeStep", {about.next_dt});
+  out.attribute(header, "Settings", about.settings);
   std::string facts;
   for (const fact& f : about.facts) facts += f.what + " = " + f.value + " (" + word_of(f.how) + ": " + f.from + ")\n";
   facts.resize(std::min(facts.size(), longest_text));
@@ -191,12 +194,34 @@ void write_hdf(const std::string& path, const initial_condition& c, const snapsh
     column("Density", p.rho);
     column("Masses", p.m);
     out.dataset<std::uint32_t>("/PartType0/ParticleIDs", ids.size(), 1, false,
-                               [&](std::size_t i, int) { return ids[i]; });
+                               [&](std::size_t i, int) { return about.ids.empty() ? ids[i] : about.ids[ids[i]]; });
     out.dataset<std::uint8_t>("/PartType0/Kind", ids.size(), 1, false,
                               [&](std::size_t i, int) { return static_cast<std::uint8_t>(p.kind[ids[i]]); });
     write_vtk(out, ids.size());
     out.done();
   });
+}
+
+snapshot read_about(const std::string& path) {
+  const hdf5_file file(path);
+  const auto number = [&](const char* name) {
+    const auto found = file.has("Header") ? file.numbers("Header", name) : std::nullopt;
+    if (!found || found->empty()) throw error(path + ": is no snapshot of pairsum: its Header has no " + name);
+    return found->front();
+  };
+  snapshot about;
+  about.time = number("Time");
+  about.step = static_cast<std::uint64_t>(number("Step"));
+  about.lost = static_cast<std::uint64_t>(number("Lost"));
+  about.next_dt = number("NextTimeStep");
+  about.settings = file.text("Header", "Settings").value_or("");
+  const std::string dataset = "PartType0/ParticleIDs";
+  std::vector<double> ids(file.shape_of(dataset).rows);
+  const std::size_t which = 0;
+  double* const to = ids.data();
+  file.read(dataset, {&which, 1}, {&to, 1});
+  about.ids.assign(ids.begin(), ids.end());
+  return about;
 }
 
 }  // namespace pairsum::files

@@ -14,6 +14,10 @@ struct snapshot {
   std::uint64_t step = 0;  ///< that were made
   double dx = 0;           ///< particle spacing, m; 0: left out
   std::vector<fact> facts;
+  std::vector<std::uint32_t> ids;  ///< of the rows, ascending; empty: their numbers
+  std::uint64_t lost = 0;          ///< particles that have left the domain before, besides rows that are lost
+  double next_dt = 0;              ///< s, of the time step that comes
+  std::string settings;            ///< what made it, for the program that goes on from here
 };
 
 /// Writes particles and their domain as HDF5 with the names of GADGET: all in /PartType0, with a column Kind (0 fluid,
@@ -22,6 +26,10 @@ struct snapshot {
 /// zeros beyond Dimension. Particles that are lost are left out. read_particles gives the same bits. The file appears
 /// under its name when it is whole. Errors: what the system or HDF5 says.
 void write_hdf(const std::string& path, const initial_condition& c, const snapshot& about = {});
+
+/// What a file of write_hdf says besides its particles and their domain, which read_particles reads; without facts.
+/// Errors: a file that write_hdf has not written.
+snapshot read_about(const std::string& path);
 
 /// A file of write_hdf in a series.
 struct snapshot_file {
