@@ -5,13 +5,16 @@
 #include <map>
 #include <memory>
 
+#include <pairsum/core/error.hpp>
 #include <pairsum/core/isa.hpp>
 #include <pairsum/sum/grids.hpp>
 #include "harness/cli/commands.hpp"
+#include "harness/cli/profile_levels.hpp"
 #include "harness/cli/verify_report.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/evolve/initial_of.hpp"
 #include "harness/measure/memory.hpp"
+#include "harness/plan/levels.hpp"
 #include "harness/plan/plan.hpp"
 #include "harness/plan/variants.hpp"
 #include "harness/plan/words.hpp"
@@ -27,6 +30,7 @@ struct verify_options {
   std::string case_name, dx, state = "perturbed", dim = "all", precision = "all", interaction = "all",
                              smoothing = "all", backend = "all", grid = "all", isa = "scalar,best", block = "auto",
                              M = "2,3,6,7", threads = "1,2,3,7", seed = "1";
+  std::map<std::string, std::string> of_files;
   bool each = false, all_M = true, json = false;
 };
 
@@ -43,8 +47,8 @@ std::vector<std::string> to_words(const std::vector<std::string_view>& names) { 
 run_request in_dimension(int dim, const run_request& asked, const verify_options& o, const registry& r) {
   run_request q = asked;
   q.dim = dim;
-  q.case_name = !o.case_name.empty() ? o.case_name : dim == 1 ? "lattice" : "dam_break";
-  if (o.dx.empty()) q.dx = {dim == 1 ? 0.0005 : dim == 2 ? 0.01 : 0.04};
+  if (q.particles.empty()) q.case_name = !o.case_name.empty() ? o.case_name : dim == 1 ? "lattice" : "dam_break";
+  if (o.dx.empty() && q.particles.empty()) q.dx = {dim == 1 ? 0.0005 : dim == 2 ? 0.01 : 0.04};
   if (o.precision == "all") leave_out_unbuilt(q, &run_request::precisions, r);
   if (o.interaction == "all") leave_out_unbuilt(q, &run_request::interactions, r);
   if (o.smoothing == "all") leave_out_unbuilt(q, &run_request::smoothings, r);
@@ -89,7 +93,18 @@ int verify(const verify_options& o) {
   q.isas = words_or_all("--isa", o.isa, isas);
   q.blocks = parse_words("--block", o.block);
   std::vector<int> dims = o.dim == "all" ? r.dims() : parse_counts("--dim", o.dim, 0);
-  if (o.dim == "all")
+  for (const auto& [key, text] : o.of_files)
+    if (!text.empty()) read_level(q, key, text, 0, option_of(key));
+  std::string particles;
+  if (!q.particles.empty()) {
+    if (!o.case_name.empty() || !o.dx.empty())
+      throw error("--case and --dx are about a case, and --particles names files");
+    if (o.dim != "all") q.hints["file_dim"] = o.dim;
+    q.states = {o.state == "perturbed" ? std::string(state_of_files) : o.state};
+    particles = take_particles(q);
+    dims = {q.dim};
+  }
+  if (o.dim == "all" && q.particles.empty())
     for (const case_entry& c : case_entries())
       if (c.name == o.case_name) std::erase_if(dims, [&](int dim) { return dim < c.least_dim; });
   std::vector<run_request> requests;
@@ -101,6 +116,7 @@ int verify(const verify_options& o) {
   }
   keep_freed_memory();
   verify_report report(o.each, o.json);
+  fmt::print(o.json ? stderr : stdout, "{}", particles);
   for (const run_request& there : requests) {
     for (const double dx : there.dx)
       for (const std::string& state : there.states) {
@@ -148,6 +164,8 @@ void add_verify_command(CLI::App& app, action& chosen) {
   command->add_option("--seed", o->seed, "of the perturbation and of random places")->capture_default_str();
   command->add_flag("--each", o->each, "a line per sum, not per formula");
   command->add_flag("--json", o->json, "the sums as one JSON document on stdout, the lines on stderr");
+  command->add_option("--H", o->of_files["H"], "support radius in m (default: 2 dx, or what files of particles say)");
+  add_particle_options(*command, o->of_files);
   add_plugin_option(*command);
   command->callback([&chosen, o, M] {
     o->all_M = M->count() > 0;
