@@ -20,6 +20,7 @@ void add_verify_command(CLI::App& app, action& chosen);
 void add_run_command(CLI::App& app, action& chosen);
 void add_worker_command(CLI::App& app, action& chosen);
 void add_tune_command(CLI::App& app, action& chosen);
+void add_info_command(CLI::App& app, action& chosen);  ///< in builds with PAIRSUM_FILES
 /// report, compare and history.
 void add_results_commands(CLI::App& app, action& chosen);
 
