@@ -91,8 +91,6 @@ nlohmann::json facts_json(const files::read_set& set) {
 nlohmann::json info_json(const files::read_set& set, const pair_counts& counts) {
   const initial_condition& c = set.initial;
   const std::size_t n = c.particles.size(), fluid = c.particles.count(particle_kind::fluid);
-  nlohmann::json periodic = nlohmann::json::array();
-  for (int d = 0; d < c.particles.dim; ++d) periodic.push_back(c.periodic);
   return {{"particles", n},
           {"fluid", fluid},
           {"boundary", n - fluid},
@@ -105,7 +103,7 @@ nlohmann::json info_json(const files::read_set& set, const pair_counts& counts) 
           {"H", c.H},
           {"dx", set.dx},
           {"box", {{"low", c.omega_low}, {"high", c.omega_high}}},
-          {"periodic", periodic},
+          {"periodic", (c.periodic ? axes::all(c.particles.dim) : axes()).text()},
           {"wrapped", set.wrapped},
           {"facts", facts_json(set)},
           {"hash", set.hash}};
