@@ -21,6 +21,7 @@ void add_run_command(CLI::App& app, action& chosen);
 void add_worker_command(CLI::App& app, action& chosen);
 void add_tune_command(CLI::App& app, action& chosen);
 void add_simulate_command(CLI::App& app, action& chosen);
+void add_info_command(CLI::App& app, action& chosen);
 /// report, compare and history.
 void add_results_commands(CLI::App& app, action& chosen);
 

@@ -24,6 +24,7 @@ constexpr const char* examples =
     "  pairsum run quick                                     a small study of everything, about a minute\n"
     "  pairsum run --dx 0.02 --backend naive_omp,symmetric_omp --M 6,7 --threads 1,2\n"
     "  pairsum tune --dx 0.02                                what is fastest for a case, in a minute\n"
+    "  pairsum info particles.hdf5                           what is in a file of particles, and how many pairs\n"
     "  pairsum report results/run                            tables, figures and a page of what was measured\n"
     "  pairsum compare naive_omp symmetric_omp --in results  which is faster, and how sure is that\n"
     "  pairsum history results                               did anything get slower from revision to revision\n"
@@ -80,6 +81,7 @@ int run_program(int argc, char** argv) {
   pairsum::harness::add_worker_command(app, chosen);
   pairsum::harness::add_tune_command(app, chosen);
   pairsum::harness::add_simulate_command(app, chosen);
+  pairsum::harness::add_info_command(app, chosen);
   pairsum::harness::add_results_commands(app, chosen);
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> commands;

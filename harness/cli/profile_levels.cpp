@@ -18,11 +18,18 @@ given_options given_of(const CLI::App& command) {
   return given;
 }
 
+std::vector<CLI::Option*> add_particle_hints(CLI::App& command, std::map<std::string, std::string>& levels) {
+  std::vector<CLI::Option*> added;
+  for (const particle_hint& h : particle_hints())
+    if (h.word != "file_dim")  // which --dim says
+      added.push_back(command.add_option(option_of(h.word), levels[std::string(h.word)], std::string(h.what)));
+  return added;
+}
+
 std::vector<CLI::Option*> add_particle_options(CLI::App& command, std::map<std::string, std::string>& levels) {
   std::vector<CLI::Option*> added{command.add_option("--particles", levels["particles"],
                                                      "files of particles in place of a case (pairsum info FILE)")};
-  for (const particle_hint& h : particle_hints())
-    added.push_back(command.add_option(option_of(h.word), levels[std::string(h.word)], std::string(h.what)));
+  for (CLI::Option* const hint : add_particle_hints(command, levels)) added.push_back(hint);
   return added;
 }
 
@@ -38,7 +45,7 @@ run_request levels_of(const std::map<std::string, std::string>& options, const s
     if (!text.empty() && (profile.empty() || given.at(option_of(key).substr(2)) || !profile_says(key)))
       read_level(r, key, text, usable_cores(), option_of(key));
   if (r.particles.empty()) return r;
-  if (given.at("dim")) r.hints["file_dim"] = options.at("dim");
+  if (given.contains("dim") && given.at("dim") && options.contains("dim")) r.hints["file_dim"] = options.at("dim");
   for (const char* const of_a_case : {"case", "dx", "state"})
     if (given.at(of_a_case) && options.at(of_a_case) != "perturbed")
       throw error(fmt::format("--{} is about a case, and --particles names files", of_a_case));

@@ -16,6 +16,10 @@ namespace pairsum::harness {
 using given_options = std::map<std::string, bool>;
 given_options given_of(const CLI::App& command);
 
+/// Adds an option for each of particle_hints(); their texts go to `levels`, by level.
+/// @return them
+std::vector<CLI::Option*> add_particle_hints(CLI::App& command, std::map<std::string, std::string>& levels);
+
 /// Adds --particles and an option for each of particle_hints(); their texts go to `levels`, by level.
 /// @return them
 std::vector<CLI::Option*> add_particle_options(CLI::App& command, std::map<std::string, std::string>& levels);

@@ -1,6 +1,6 @@
 # The readers and writers of particle files, a library of their own: a file per word of files/formats.def, and what they share.
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(hdf5 IMPORTED_TARGET hdf5>=1.10)
+pkg_check_modules(hdf5 QUIET IMPORTED_TARGET GLOBAL hdf5>=1.10)
 if(NOT hdf5_FOUND)
   message(FATAL_ERROR "pairsum::files needs HDF5 1.10 or newer (Debian: libhdf5-dev); PAIRSUM_FILES=OFF builds without it")
 endif()

@@ -31,14 +31,25 @@ void each_fluid(const set_in_making& s, F&& f) {
       if (file.content.kind[i] == particle_kind::fluid) f(file.content, i);
 }
 
+/// Values of the fluid, value(file, row).
+template <class F>
+std::vector<double> of_fluid(const set_in_making& s, F&& value) {
+  std::vector<double> all;
+  std::size_t n = 0;
+  for (const one_file& f : s.files)
+    n += static_cast<std::size_t>(std::ranges::count(f.content.kind, particle_kind::fluid));
+  all.reserve(n);
+  each_fluid(s, [&](const file_content& c, std::size_t i) { all.push_back(value(c, i)); });
+  return all;
+}
+
 /// The median distance of fluid particles to their nearest neighbours.
 double spacing_of_fluid(const set_in_making& s) {
-  std::vector<std::vector<double>> x(s.axes.size());
+  std::vector<std::vector<double>> x;
+  for (const std::size_t d : s.axes)
+    x.push_back(of_fluid(s, [d](const file_content& c, std::size_t i) { return c.x[d][i]; }));
   std::vector<const std::vector<double>*> columns;
-  for (std::size_t d = 0; d < s.axes.size(); ++d) {
-    each_fluid(s, [&](const file_content& c, std::size_t i) { x[d].push_back(c.x[s.axes[d]][i]); });
-    columns.push_back(&x[d]);
-  }
+  for (const std::vector<double>& one : x) columns.push_back(&one);
   return nearest_spacing(columns);
 }
 
@@ -207,7 +218,7 @@ void complete_columns(set_in_making& s) {
     s.tell("rho0", number_text(eos.rho0), origin::derived, "mean density of the fluid");
   } else if (one_mass || has_m) {
     std::vector<double> masses;
-    if (!one_mass) each_fluid(s, [&](const file_content& c, std::size_t i) { masses.push_back(c.m[i]); });
+    if (!one_mass) masses = of_fluid(s, [](const file_content& c, std::size_t i) { return c.m[i]; });
     eos.rho0 = positive("the density of masses and spacing",
                         (one_mass ? *one_mass : median_of(std::move(masses))) / nearest());
     s.tell("rho0", number_text(eos.rho0), origin::derived,
@@ -245,9 +256,8 @@ void complete_columns(set_in_making& s) {
       }
   if (dx == 0 && header_dx) nearest();
   if (dx == 0) {
-    std::vector<double> all;
-    each_fluid(s, [&](const file_content& c, std::size_t i) { all.push_back(c.m[i] / c.rho[i]); });
-    dx = std::pow(median_of(std::move(all)), 1.0 / s.dim());
+    const auto volume = [](const file_content& c, std::size_t i) { return c.m[i] / c.rho[i]; };
+    dx = std::pow(median_of(of_fluid(s, volume)), 1.0 / s.dim());
     s.tell("dx", number_text(dx), origin::derived,
            "median of (mass/density)^(1/" + std::to_string(s.dim()) + ") of the fluid");
   }

@@ -9,6 +9,7 @@
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/names.hpp>
+#include <pairsum/files/column_room.hpp>
 #include <pairsum/files/formats.hpp>
 #include <pairsum/files/hdf5_dialects.hpp>
 #include <pairsum/files/hdf5_file.hpp>
@@ -242,7 +243,7 @@ void dialect_reader::box(const std::string& group, std::size_t axes_of_file) {
       low.push_back((*limits)[2 * d]);
       high.push_back((*limits)[2 * d + 1]);
     }
-  } else if (edges) {
+  } else if (edges && std::ranges::any_of(*edges, [](double e) { return e != 0; })) {
     high = edges->size() == 1 ? std::vector<double>(axes_of_file, edges->front()) : *edges;
     low.assign(high.size(), 0.0);
   }
@@ -321,7 +322,7 @@ void dialect_reader::quantity(const std::vector<particle_group>& groups, sources
     throw error(first_.path() + ": some of its groups have " + std::to_string(columns) + " columns of " + what +
                 ", others " + std::to_string(most));
   }
-  for (std::size_t k = 0; k < columns; ++k) to[k]->resize(rows);
+  for (std::size_t k = 0; k < columns; ++k) resize_column(*to[k], rows);
   std::size_t begin = 0;
   for (const particle_group& g : groups) {
     const sources& all = g.*which;

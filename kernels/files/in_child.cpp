@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include <pairsum/core/error.hpp>
+#include <pairsum/files/column_room.hpp>
 
 namespace pairsum::files {
 namespace {
@@ -74,11 +75,16 @@ class pipe_end {
   void each(T&... a) {
     (pass(a), ...);
   }
+  static void room(std::string& a, std::size_t n) { a.resize(n); }
+  template <class T>
+  static void room(std::vector<T>& a, std::size_t n) {
+    resize_column(a, n);
+  }
   template <class C, class F>
   void elements(C& a, F&& f) {
     std::size_t n = a.size();
     pass(n);
-    if (!writes_) a.resize(n);
+    if (!writes_) room(a, n);
     f();
   }
   void bytes(void* at, std::size_t n) {

@@ -38,12 +38,11 @@ def columns(path):
         return {name: data[...] for name, data in file["PartType0"].items()}
 
 
-PACKED = {"chunks": (64,), "shuffle": True, "compression": "gzip", "fletcher32": True}
-
-
 def dataset(group, name, data, packed=False):
-    options = PACKED | {"chunks": (64, *data.shape[1:])} if packed else {}
-    group.create_dataset(name, data=data, **options)
+    """`packed` as SWIFT packs."""
+    rows = 64 if len(data) < 10_000 else 4096
+    options = {"chunks": (rows, *data.shape[1:]), "shuffle": True, "compression": "gzip", "fletcher32": True}
+    group.create_dataset(name, data=data, **(options if packed else {}))
 
 
 class Particles:

@@ -50,7 +50,7 @@ ALLOWED = {  # folder: folders and headers it may include, besides itself
                     "harness/stats", "harness/environment", "harness/model", "harness/self_test", "harness/terminal"],
     "harness/tune": ["core", "cases", "sum", "harness/rows", "harness/plan", "harness/measure", "harness/verify", "harness/stats",
                      "harness/environment", "harness/run", "harness/terminal"],
-    "harness/cli": ["core", "cases", "integrators", "sum", "harness/*"],
+    "harness/cli": ["core", "cases", "files", "integrators", "particles", "sum", "harness/*"],
     "harness/gbench": ["core", "cases", "integrators", "sum", "harness/*", "grid", "smoothing", "particles"],
 }
 ALONE = ["backends", "formulas"]  # none includes another

@@ -11,7 +11,7 @@ SOURCE = pathlib.Path(os.environ["PAIRSUM_SOURCE"])
 TOOL = shutil.which("clang-tidy-14")
 QUICK = ["kernels/core/team.cpp", "kernels/sum/check.cpp", "harness/rows/whole_file.cpp"]
 BUILD = pathlib.Path(os.environ.get("PAIRSUM_BUILD", SOURCE / "build/test"))
-FLAGS = [f"-I{BUILD}/harness/environment/include", f"-I{BUILD}/kernels/include", f"-I{BUILD}/kernels/generated", "-std=c++20", f"-I{SOURCE}", "-isystem", "/usr/include/eigen3", "-fopenmp", "-DFMT_SHARED",
+FLAGS = [f"-I{BUILD}/harness/environment/include", f"-I{BUILD}/kernels/include", f"-I{BUILD}/kernels/generated", "-std=c++20", f"-I{SOURCE}", "-isystem", "/usr/include/eigen3", "-isystem", "/usr/include/hdf5/serial", "-fopenmp", "-DFMT_SHARED",
          '-DPAIRSUM_FLAGS=""', '-DPAIRSUM_VERSION=""']
 
 
