@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include <pairsum/core/error.hpp>
-#include "harness/terminal/interrupt.hpp"
 #include "harness/run/launch.hpp"
+#include "harness/terminal/interrupt.hpp"
 #include "harness/verify/shared_store.hpp"
 #include "study_fixture.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
-#include "harness/terminal/progress.hpp"
 #include "harness/terminal/program.hpp"
+#include "harness/terminal/progress.hpp"
 #include "harness/terminal/terminal.hpp"
 
 namespace pairsum::harness {
