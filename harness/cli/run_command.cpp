@@ -144,13 +144,14 @@ int start(const run_options& o, const given_options& given) {
     if (!(p.half_width >= 0 && std::isfinite(p.half_width)))
       throw error(fmt::format("half-width must be at least 0 and finite, is {}", p.half_width));
   }
+  std::set<std::string> told;
+  for (part_plan& p : plan.parts)
+    if (const std::string table = take_particles(p.request); told.insert(table).second && !o.show_plan)
+      fmt::print("{}", table);
   if (o.show_plan) {
     fmt::print("{}\n", plan_json(plan).dump(2));
     return 0;
   }
-  std::set<std::string> told;
-  for (part_plan& p : plan.parts)
-    if (const std::string table = take_particles(p.request); told.insert(table).second) fmt::print("{}", table);
   const registry& all = registry_of(plan);
   if (o.dry_run) {
     fmt::print("{}", dry_run(plan, all));
