@@ -20,7 +20,7 @@ void add_verify_command(CLI::App& app, action& chosen);
 void add_run_command(CLI::App& app, action& chosen);
 void add_worker_command(CLI::App& app, action& chosen);
 void add_tune_command(CLI::App& app, action& chosen);
-/// report, compare and history.
+/// report, compare, history and convert.
 void add_results_commands(CLI::App& app, action& chosen);
 
 }  // namespace pairsum::harness

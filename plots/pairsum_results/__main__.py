@@ -192,8 +192,8 @@ def _history(options: argparse.Namespace) -> int:
 def _convert_program(programs) -> None:
     program = programs.add_parser(
         "convert", help="particle files of other programs to one .hdf", usage="pairsum convert [options] IN... OUT.hdf",
-        description="Reads particles of other programs and writes one .hdf, which pairsum and ParaView read: VTK (.vtp, "
-        ".vtu, .pvtp, .pvtu, .vtk), GROMACS .gro, LAMMPS dumps, GSD, H5MD, extended XYZ, PySPH's .npz. No unit is "
+        description="Reads particles of other programs and writes one .hdf, which pairsum and ParaView read: VTK "
+        "(.vtp, .vtu, .pvtp, .pvtu, .vtk), GROMACS .gro, LAMMPS dumps, GSD, H5MD, extended XYZ, PySPH's .npz. No unit is "
         "changed and nothing is made up. The table says what was read, derived, assumed and left out. CSV, bi4 and "
         "other HDF5 files need no conversion.",
         epilog="example: pairsum convert --fluid water.vtp --boundary wall.vtp out.hdf")

@@ -1,6 +1,5 @@
 """Text files of several frames, each a head and a table with a row per particle (LAMMPS dump, extended XYZ)."""
 import io
-import itertools
 import pathlib
 from typing import BinaryIO
 
@@ -10,16 +9,20 @@ import pandas as pd
 from ..rows import ResultsError
 
 
-def skip(stream: BinaryIO, rows: int) -> None:
-    """Skips the rows of a table."""
-    next(itertools.islice(stream, rows, rows), None)
+def skip(stream: BinaryIO, rows: int) -> tuple[int, int]:
+    """Skips the rows of a table; returns the bytes at which it begins and ends."""
+    begin = stream.tell()
+    for _ in range(rows):
+        if not stream.readline():
+            break
+    return begin, stream.tell()
 
 
-def table(path: pathlib.Path, offset: int, names: list[str], rows: int) -> dict[str, np.ndarray]:
-    """The columns of a table that begins at a byte. Raises ResultsError unless it has so many rows and columns."""
+def table(path: pathlib.Path, span: tuple[int, int], names: list[str], rows: int) -> dict[str, np.ndarray]:
+    """The columns of a table between two bytes. Raises ResultsError unless it has so many rows and columns."""
     with path.open("rb") as stream:
-        stream.seek(offset)
-        text = io.BytesIO(b"".join(itertools.islice(stream, rows)))
+        stream.seek(span[0])
+        text = io.BytesIO(stream.read(span[1] - span[0]))
     try:
         found = pd.read_csv(text, sep=r"\s+", header=None, low_memory=False) if rows else pd.DataFrame(columns=names)
     except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as problem:

@@ -1,4 +1,4 @@
-"""Work in a process of its own: libraries of file formats may crash on damaged files, and say much where a line is due."""
+"""Work in a process of its own: libraries may crash on damaged files, or print much where one line is due."""
 import os
 import signal
 import sys

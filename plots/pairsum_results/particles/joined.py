@@ -46,8 +46,8 @@ def joined(sources: list[tuple[Source, str]], named: dict[str, str], rule: str) 
         raise ResultsError(f"{named_files or 'the files'}: no particles")
     together, smoothing, more = _together(parts)
     if together["Kind"].all() and not all(kind for _, kind in sources):
-        raise ResultsError(f"{named_files}: no particle is fluid; --boundary-kind none takes all for fluid, --fluid FILE "
-                           "those of a file")
+        raise ResultsError(f"{named_files}: no particle is fluid; --boundary-kind none takes all for fluid, --fluid "
+                           "FILE those of a file")
     files = [source for source, _ in sources]
     box_low, box_size, periodic, of_box = box(files)
     dim, of_dim = dimension(together, files)

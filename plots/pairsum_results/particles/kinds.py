@@ -70,8 +70,8 @@ def _of_dualsphysics(source: Source, name: str, values: np.ndarray) -> Kinds:
                            "know; --boundary-kind none takes all particles for fluid")
     if not np.isin(values, (0, 1, 3)).all():
         there = ", ".join(_texts(np.unique(values))[:8])
-        raise ResultsError(f"{source.path}: {name} has the values {there}, should have 0 or 1 (wall) and 3 (fluid); for "
-                           f'others say --boundary-kind "{name}=0,1", --boundary-kind none, --fluid or --boundary')
+        raise ResultsError(f"{source.path}: {name} has the values {there}, should have 0 or 1 (wall) and 3 (fluid); "
+                           f'for others say --boundary-kind "{name}=0,1", --boundary-kind none, --fluid or --boundary')
     return Kinds((values != 3).astype(np.uint8), "read", f"{name} of DualSPHysics: 3 fluid, 0 and 1 boundary", name)
 
 

@@ -17,7 +17,7 @@ def read(path: pathlib.Path, frame: int) -> list[Source]:
     number = chosen(path, frame, len(heads))
     head = heads[number]
     low, size, periodic = _box(path, head)
-    columns = frames.table(path, head["offset"], head["columns"], head["rows"])
+    columns = frames.table(path, head["span"], head["columns"], head["rows"])
     if "x" not in columns:
         for names, scale, shift in ((("xu", "yu", "zu"), 1.0, 0.0), (("xs", "ys", "zs"), size, low),
                                     (("xsu", "ysu", "zsu"), size, low)):
@@ -31,7 +31,7 @@ def read(path: pathlib.Path, frame: int) -> list[Source]:
 
 
 def _heads(path: pathlib.Path, stream):
-    """What stands before each table, with the byte at which that begins."""
+    """What stands before each table, and where that lies."""
     head: dict = {}
     while line := stream.readline():
         item = line.decode("utf-8", "replace").removeprefix("ITEM:").strip()
@@ -42,8 +42,7 @@ def _heads(path: pathlib.Path, stream):
                 rows = int(head["NUMBER OF ATOMS"])
             except (KeyError, ValueError):
                 raise ResultsError(f'{path} does not say the "NUMBER OF ATOMS"') from None
-            yield {**head, "columns": item.split()[1:], "rows": rows, "offset": stream.tell()}
-            frames.skip(stream, rows)
+            yield {**head, "columns": item.split()[1:], "rows": rows, "span": frames.skip(stream, rows)}
             head = {}
         elif item.startswith("BOX BOUNDS"):
             head["bounds"] = item.split()[2:], [stream.readline().split() for _ in range(3)]

@@ -95,7 +95,8 @@ def _vector(source: Source, names: list[str], triples: list[tuple[str, ...]]) ->
     for triple in triples:
         parts = [known[word] for word in triple if word in known and source.columns[known[word]].ndim == 1]
         if parts and triple[0] in known and len(parts) == sum(word in known for word in triple):
-            return _three(source, ", ".join(parts), np.column_stack([source.columns[p] for p in parts])), ", ".join(parts)
+            name = ", ".join(parts)
+            return _three(source, name, np.column_stack([source.columns[part] for part in parts])), name
     return None
 
 

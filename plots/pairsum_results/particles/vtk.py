@@ -49,7 +49,7 @@ def read(path: pathlib.Path, legacy: bool) -> list[Source]:
 
 
 def _source(path: pathlib.Path, columns: dict[str, np.ndarray], data, as_numpy, legacy: bool) -> Source:
-    """With what the file says of all particles: `smoothing_length`, `ndims` and `time` of TrixiParticles, `TimeValue`."""
+    """With what a file says of all particles: TrixiParticles' `smoothing_length`, `ndims` and `time`, `TimeValue`."""
     field = data.GetFieldData()
     one = {}
     for k in range(field.GetNumberOfArrays()):

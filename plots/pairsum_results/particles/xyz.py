@@ -16,12 +16,12 @@ def read(path: pathlib.Path, frame: int) -> list[Source]:
     if not heads:
         raise ResultsError(f"{path} is empty")
     number = chosen(path, frame, len(heads))
-    rows, comment, offset = heads[number]
+    rows, comment, span = heads[number]
     with reading(path, "extended XYZ"):
         said = {key.lower(): value for key, _, value in (word.partition("=") for word in shlex.split(comment))}
         widths = _widths(said.get("properties", "species:S:1:pos:R:3"))
         names = [f"{name}:{k}" for name, width in widths.items() for k in range(width)]
-        flat = frames.table(path, offset, names, rows)
+        flat = frames.table(path, span, names, rows)
         columns = {name: flat[f"{name}:0"] if width == 1 else
                    np.column_stack([flat[f"{name}:{k}"] for k in range(width)]) for name, width in widths.items()}
         source = Source(path, "extended XYZ", columns, unit="extended XYZ names none, \u00c5 is usual",
@@ -38,7 +38,7 @@ def read(path: pathlib.Path, frame: int) -> list[Source]:
 
 
 def _heads(path: pathlib.Path, stream):
-    """Rows, comment and the byte at which the table begins, of each frame."""
+    """Rows, comment and where the table lies, of each frame."""
     while line := stream.readline().strip():
         try:
             rows = int(line)
@@ -46,8 +46,7 @@ def _heads(path: pathlib.Path, stream):
             raise ResultsError(f"{path}: the number of particles should stand where the file has "
                                f'"{line.decode("utf-8", "replace")}"') from None
         comment = stream.readline().decode("utf-8", "replace")
-        yield rows, comment, stream.tell()
-        frames.skip(stream, rows)
+        yield rows, comment, frames.skip(stream, rows)
 
 
 def _widths(properties: str) -> dict[str, int]:
