@@ -22,7 +22,7 @@ void add_worker_command(CLI::App& app, action& chosen);
 void add_tune_command(CLI::App& app, action& chosen);
 void add_simulate_command(CLI::App& app, action& chosen);
 void add_info_command(CLI::App& app, action& chosen);
-/// report, compare and history.
+/// report, compare, history and convert.
 void add_results_commands(CLI::App& app, action& chosen);
 
 }  // namespace pairsum::harness

@@ -28,6 +28,7 @@ constexpr const char* examples =
     "  pairsum report results/run                            tables, figures and a page of what was measured\n"
     "  pairsum compare naive_omp symmetric_omp --in results  which is faster, and how sure is that\n"
     "  pairsum history results                               did anything get slower from revision to revision\n"
+    "  pairsum convert particles.vtu out.hdf                 particles of other programs, to read here or in ParaView\n"
     "Exit codes: 0 fine, 1 a verification failed or something got slower, 2 bad input, 130 interrupted.";
 
 /// The command that was called, "pairsum run".

@@ -1,4 +1,5 @@
-// report, compare and history: what is done with rows after they were measured is Python's (plots/pairsum_results).
+// report, compare and history: what is done with rows after they were measured is Python's (plots/pairsum_results), and
+// so is convert: other programs' particle files are read by Python's libraries.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -51,7 +52,8 @@ void add_results_commands(CLI::App& app, action& chosen) {
   for (const auto& [name, about] :
        {std::pair{"report", "Tables, CSV, summary.json, figures and report.html from rows files"},
         {"compare", "Is B faster than A, by how much, and how sure is that?"},
-        {"history", "From revision to revision: what got slower or faster?"}}) {
+        {"history", "From revision to revision: what got slower or faster?"},
+        {"convert", "Particle files of other programs (VTK, LAMMPS, GROMACS, GSD, ...) to one .hdf"}}) {
     CLI::App* const command = app.add_subcommand(name, about);
     command->set_help_flag();  // Python's own
     command->prefix_command();

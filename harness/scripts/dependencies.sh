@@ -6,7 +6,8 @@
 build_packages=(g++ cmake make ninja-build pkg-config git libbenchmark-dev libtbb-dev libeigen3-dev
   nlohmann-json3-dev libhwloc-dev libcli11-dev libfmt-dev libhwy-dev libhdf5-dev)
 plots_packages=(python3-pandas python3-scipy python3-matplotlib python3-jinja2)
-tests_packages=(libgtest-dev librapidcheck-dev valgrind python3-jsonschema python3-pytest python3-h5py python3-vtk9
+tests_packages=(libgtest-dev librapidcheck-dev valgrind python3-jsonschema python3-pytest
+  python3-h5py python3-vtk9 python3-gsd
   clang-14 libomp-14-dev libclang-rt-14-dev clang-format-14 clang-tidy-14
   chromium chromium-driver python3-selenium)
 

@@ -1,4 +1,4 @@
-"""The programs: `python3 -m pairsum_results report FILE...`, `compare A B` and `history`."""
+"""The programs: `python3 -m pairsum_results report FILE...`, `compare A B`, `history` and `convert IN... OUT.hdf`."""
 import argparse
 import json
 import os
@@ -6,6 +6,7 @@ import pathlib
 import signal
 import sys
 import warnings
+from typing import Callable
 
 from .rows import PHASES, ResultsError
 from .words import hint, one_line, unknown
@@ -56,16 +57,31 @@ def main(arguments: list[str] | None = None) -> int:
     _report_program(programs)
     _compare_program(programs)
     _history_program(programs)
-    try:
+    _convert_program(programs)
+
+    def run() -> int:
         options, rest = parser.parse_known_args(arguments)
+        if options.program == "convert":  # whose files may stand behind an option, too
+            options.files += [word for word in rest if not word.startswith("-")]
+            rest = [word for word in rest if word.startswith("-")]
         if rest:
             programs.choices[options.program].refuse(rest[0])
         return options.run(options) or 0
+    return _reported(run)
+
+
+def _reported(run: Callable[[], int]) -> int:
+    """The exit code of `run`; what it raises is a line."""
+    try:
+        return run()
     except ResultsError as problem:
         _complain(one_line(str(problem)))
         return 2
     except OSError as problem:
         _complain(one_line(f"{problem.filename}: {problem.strerror}"))
+        return 2
+    except MemoryError:
+        _complain("not enough memory")
         return 2
     except KeyboardInterrupt:
         return 130
@@ -171,6 +187,47 @@ def _history(options: argparse.Namespace) -> int:
     _say(history_report.write(found, folder).rstrip("\n"))
     _say(f"page: {folder / 'history.html'}")
     return 1 if len(found.slower) else 0
+
+
+def _convert_program(programs) -> None:
+    program = programs.add_parser(
+        "convert", help="particle files of other programs to one .hdf", usage="pairsum convert [options] IN... OUT.hdf",
+        description="Reads particles of other programs and writes one .hdf, which pairsum and ParaView read: VTK "
+        "(.vtp, .vtu, .pvtp, .pvtu, .vtk), GROMACS .gro, LAMMPS dumps, GSD, H5MD, extended XYZ, PySPH's .npz. No unit is "
+        "changed and nothing is made up. The table says what was read, derived, assumed and left out. CSV, bi4 and "
+        "other HDF5 files need no conversion.",
+        epilog="example: pairsum convert --fluid water.vtp --boundary wall.vtp out.hdf")
+    program.add_argument("files", nargs="*", metavar="FILE", help="files to read, one set together; last, the .hdf to "
+                         "write. Their kinds come from a column (Kind, DualSPHysics' Type) or the name of a group; "
+                         "without one all particles are fluid")
+    program.add_argument("--fluid", metavar="FILE", action="append", default=[], help="a file of fluid particles")
+    program.add_argument("--boundary", metavar="FILE", action="append", default=[],
+                         help="a file of boundary particles")
+    program.add_argument("--boundary-kind", metavar="COLUMN=VALUES", default="",
+                         help='which particles of other files are boundary: "Type=0,1", or none')
+    program.add_argument("--column", metavar="QUANTITY=NAME", action="append", default=[],
+                         help="the column of a quantity (x, y, z, vx, vy, vz, rho, m, h) where the table of names does "
+                         "not know it: rho=c_rho, x=Place:0")
+    program.add_argument("--frame", metavar="N", type=int, default=-1,
+                         help="which one of several, counted from 0, or from the end (default: -1, the last)")
+    program.add_argument("--trust-pickles", action="store_true",
+                         help="read PySPH's .npz, which holds pickles: they may run any program")
+    program.set_defaults(run=_convert)
+
+
+def _convert(options: argparse.Namespace) -> int:
+    from .particles import Asked, convert
+    from .particles.guarded import guarded
+    from .particles.hdf import unfinished_name
+
+    asked = Asked(options.files[-1] if options.files else "", options.files[:-1], options.fluid, options.boundary,
+                  options.boundary_kind, options.column, options.frame, options.trust_pickles)
+
+    def work() -> int:
+        _say(convert(asked).rstrip("\n"))
+        return 0
+    return guarded(lambda: _reported(work), lambda process: unfinished_name(
+        pathlib.Path(asked.out), process).unlink(missing_ok=True))
 
 
 if __name__ == "__main__":

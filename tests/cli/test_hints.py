@@ -17,6 +17,7 @@ MISSPELT = [
     (["report", "rows.jsonl", "--tabels"], "unknown option --tabels of pairsum report; did you mean --tables?"),
     (["run", "quick", "--only", "bakcend=naive"], 'unknown level of --only "bakcend"; did you mean backend?'),
     (["run", "quick", "--only", "backend=symetric"], "has no backend symetric; did you mean symmetric?"),
+    (["convert", "--fluids", "a.vtp", "b.hdf"], "unknown option --fluids of pairsum convert; did you mean --fluid?"),
     (["history", "--phase", "totl"], 'unknown phase "totl"; did you mean total?'),
     (["run", "tlak"], 'unknown plan "tlak"; did you mean talk?'),
     ([*SMALL, "--backend", "symetric_omp"], 'unknown backend "symetric_omp"; did you mean symmetric_omp?'),

@@ -56,7 +56,7 @@ def test_version_names_revision_compiler_and_flags(pairsum):
 def test_help_teaches(pairsum):
     assert "pairsum run" in pairsum("--help").stdout
     assert "worker" not in pairsum("--help").stdout
-    for command in ["run", "tune", "verify", "report", "compare", "history", "list"]:
+    for command in ["run", "tune", "verify", "report", "compare", "history", "convert", "list"]:
         done = pairsum(command, "--help")
         assert done.returncode == 0 and len(done.stdout) > 200
 
