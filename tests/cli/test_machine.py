@@ -180,7 +180,7 @@ def test_particles_that_may_leave_are_counted_wherever_times_stand(pairsum, tmp_
     assert "naive_omp lost 216 of 216 fluid particles" in done.stdout
     line = next(line for line in done.stdout.splitlines() if line.startswith("naive_omp ") and "lost" not in line and "(" not in line)
     assert line.split()[-1] == "-", "no time per pair: the steps have different pairs"
-    assert pairsum("report", "rows.jsonl", "--out", "report").returncode == 0
+    assert pairsum("report", "--tables", "rows.jsonl", "--out", "report").returncode == 0
     assert "naive_omp M=5 threads=1 (216 of 216 fluid particles)" in (tmp_path / "report" / "tables.txt").read_text()
 
 

@@ -114,13 +114,13 @@ def test_a_killed_report_leaves_no_file_that_is_not_whole(tmp_path):
     assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("old.txt", "new")]
 
 
-@pytest.mark.parametrize("word, shown", [("1\n2", r"1\n2"), ("\x1b[31mred", r"\x1b[31mred"), ("\x9b31m", r"\x9b31m"), ("a\x7f", r"a\x7f")])
-def test_messages_are_one_line_without_control_characters(pairsum, rows, word, shown):
+def test_messages_are_one_line_without_control_characters(pairsum, rows):
+    word, shown = "1\n2\x1b[31m\x9b3\x7f", r"1\n2\x1b[31m\x9b3\x7f"
     for words in (["run", "--isa", word], ["verify", "--backend", word], [word], ["run", "--" + word], ["run", word + ".json"], ["report", word],
                   ["compare", word, "b", "--in", rows], ["report", rows, "--" + word], ["history", "--phase", word, rows]):
         done = pairsum(*words)
         assert refused(done), words
-        assert all(c.isprintable() or c == "\n" for c in done.stderr), words
+        assert is_shown(done.stderr), words
         assert shown in done.stderr.replace("\\xc2", ""), (words, done.stderr)
 
 
@@ -133,9 +133,7 @@ def test_what_is_printed_has_no_control_characters_of_others(pairsum, tmp_path):
     word = "a\nb\x1b[31mc\x7f\x9b"
     folder = tmp_path / word
     said = []
-    for words in (["run", *SMALL, "--out", folder / "rows.jsonl"], ["run", *SMALL, "--out", folder / "rows.jsonl"],
-                  ["report", "--tables", folder], ["report", "--tables", folder / "rows.jsonl", "--out", tmp_path / (word + "2")],
-                  ["compare", "naive_omp", "symmetric_omp", "--in", folder], ["history", folder], ["compare", folder, folder / "rows.jsonl"],
+    for words in (["run", *SMALL, "--out", folder / "rows.jsonl"], ["history", folder], ["compare", folder, folder / "rows.jsonl"],
                   ["tune", *TUNED, "--save", tmp_path / (word + ".json")], ["tune", *TUNED, "--json", "--save", tmp_path / (word + ".json")]):
         done = pairsum(*words)
         assert done.returncode in ([0, 2] if words[1] == folder else [0]), (words, done.stderr)  # where it has nothing to compare
