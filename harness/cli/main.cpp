@@ -9,6 +9,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/environment/environment.hpp"
 #include "harness/plan/levels.hpp"
+#include "harness/plan/refusal.hpp"
 #include "harness/plugin/plugins.hpp"
 #include "harness/terminal/program.hpp"
 
@@ -31,12 +32,6 @@ constexpr const char* examples =
     "  pairsum convert particles.vtu out.hdf                 particles of other programs, to read here or in ParaView\n"
     "Exit codes: 0 fine, 1 a verification failed or something got slower, 2 bad input, 130 interrupted.";
 
-/// The command that was called, "pairsum run".
-std::string called(const CLI::App& app) {
-  const auto commands = app.get_subcommands();
-  return commands.empty() ? app.get_name() : app.get_name() + " " + commands.front()->get_name();
-}
-
 /// The error for a word that no option and no argument takes: names the option that was meant.
 pairsum::error unexpected(const CLI::App& app, const std::string& word) {
   const auto commands = app.get_subcommands();
@@ -45,29 +40,20 @@ pairsum::error unexpected(const CLI::App& app, const std::string& word) {
     for (const std::string& name : o->get_lnames()) valid.push_back("--" + name);
   const std::string name = word.substr(0, word.find('='));
   const std::string bare = name.substr(std::min(name.find_first_not_of('-'), name.size()));
-  const std::string what = word.starts_with('-') ? "unknown option " + name + " of " + called(app)
-                                                 : called(app) + " does not take \"" + word + "\"";
+  const std::string command = pairsum::harness::called(app);
+  const std::string what =
+      word.starts_with('-') ? "unknown option " + name + " of " + command : command + " does not take \"" + word + "\"";
   return pairsum::error(
-      fmt::format("{};{} {} --help lists its options", what, pairsum::hint_for("--" + bare, valid), called(app)));
+      fmt::format("{};{} {} --help lists its options", what, pairsum::hint_for("--" + bare, valid), command));
 }
 
-/// Is an option a level that takes a list?
-bool is_list(const std::string& option) {
+/// The levels that take a list.
+std::vector<std::string> list_levels() {
   const nlohmann::json levels = pairsum::harness::levels_json({});
-  const auto level = levels.find(option.substr(2));
-  return level != levels.end() && level->is_array();
-}
-
-/// What is wrong with words that CLI11 refuses.
-std::string refusal(const CLI::App& app, const CLI::ParseError& e) {
-  const auto commands = app.get_subcommands();
-  for (const CLI::Option* o : (commands.empty() ? &app : commands.front())->get_options())
-    if (o->get_items_expected_max() == 1 && o->results().size() > 1 && !o->get_positional())
-      return fmt::format("{} is given {} times, should be once", o->get_name(), o->results().size()) +
-             (is_list(o->get_name())
-                  ? fmt::format("; a list has commas: {} {}", o->get_name(), fmt::join(o->results(), ","))
-                  : "");
-  return e.what();
+  std::vector<std::string> lists;
+  for (const auto& level : levels.items())
+    if (level.value().is_array()) lists.push_back(level.key());
+  return lists;
 }
 
 int run_program(int argc, char** argv) {
@@ -96,7 +82,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
     if (const auto words = app.remaining(true); !words.empty()) throw unexpected(app, words.front());
-    throw pairsum::error(fmt::format("{} (see {} --help)", refusal(app, e), called(app)));
+    throw pairsum::harness::refusal(app, e, list_levels());
   }
   pairsum::harness::load_named_plugins();
   return chosen();

@@ -21,6 +21,7 @@
 #include "harness/run/dry_run.hpp"
 #include "harness/run/study.hpp"
 #include "harness/run/worker.hpp"
+#include "harness/run/writable_file.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -72,7 +73,7 @@ struct run_options {
   std::string again;  ///< the words that were given
   std::map<std::string, std::string> levels;
   std::vector<std::string> programs, only;
-  int rounds = 6;
+  std::int64_t rounds = 6;
   double budget_s = 0, half_width = 0;
   bool fresh = false, dry_run = false, show_plan = false, peaks = false, oversubscribe = false;
 };
@@ -89,6 +90,16 @@ study_plan plan_from_options(const run_options& o, const given_options& given) {
   return plan;
 }
 
+/// Does something that may find the plan wrong; what it throws names the plan, too.
+template <class Work>
+auto in_plan(const run_options& o, Work&& work) {
+  try {
+    return work();
+  } catch (const error& e) {
+    throw o.plan.empty() ? e : error(fmt::format("{}: {}", o.plan, e.what()));
+  }
+}
+
 study_plan plan_of(const run_options& o, const given_options& given) {
   if (o.plan.empty()) return plan_from_options(o, given);
   if (given.at("profile")) throw error("--profile names points, and so does the plan " + o.plan);
@@ -99,7 +110,8 @@ study_plan plan_of(const run_options& o, const given_options& given) {
                       "file of your own",
                       option_of(key), o.plan, key));
   if (given.at("study")) throw error("--study is said by the plan " + o.plan);
-  study_plan plan = parse_plan(load_plan(o.plan), usable_cores());
+  const nlohmann::json text = load_plan(o.plan);
+  study_plan plan = in_plan(o, [&] { return parse_plan(text, usable_cores()); });
   if (given.at("seed"))
     for (part_plan& p : plan.parts) read_level(p.request, "seed", o.levels.at("seed"), 0, "--seed");
   return plan;
@@ -128,6 +140,15 @@ std::vector<int> threads_of(const study_plan& plan, const registry& all) {
   return threads;
 }
 
+/// The processes of a study are told the name of their file as JSON.
+void check_name(const std::string& file) {
+  try {
+    static_cast<void>(nlohmann::json(file).dump());
+  } catch (const nlohmann::json::exception&) {
+    throw error(fmt::format("cannot write rows to {}: its name should be UTF-8", file));
+  }
+}
+
 int start(const run_options& o, const given_options& given) {
   study_plan plan = plan_of(o, given);
   narrow(plan, o.only, usable_cores());
@@ -137,10 +158,11 @@ int start(const run_options& o, const given_options& given) {
   for (part_plan& p : plan.parts) {
     if (given.at("half-width")) p.half_width = o.half_width;
     if (o.plan.empty() || given.at("rounds")) {
-      p.most_rounds = o.rounds;
-      p.least_rounds = p.half_width > 0 ? std::min(o.rounds, rounds_of_interval) : o.rounds;
+      if (o.rounds < 1 || o.rounds > rounds_limit)
+        throw error(fmt::format("rounds must be at least 1 and at most {}, is {}", rounds_limit, o.rounds));
+      p.most_rounds = static_cast<int>(o.rounds);
+      p.least_rounds = p.half_width > 0 ? std::min(p.most_rounds, rounds_of_interval) : p.most_rounds;
     }
-    if (p.least_rounds < 1) throw error(fmt::format("rounds must be at least 1, is {}", p.least_rounds));
     if (!(p.half_width >= 0 && std::isfinite(p.half_width)))
       throw error(fmt::format("half-width must be at least 0 and finite, is {}", p.half_width));
   }
@@ -154,12 +176,12 @@ int start(const run_options& o, const given_options& given) {
   }
   const registry& all = registry_of(plan);
   if (o.dry_run) {
-    fmt::print("{}", dry_run(plan, all));
+    fmt::print("{}", in_plan(o, [&] { return dry_run(plan, all); }));
     if (const std::string why = too_many(threads_of(measurable(plan, all).plan, all)); !why.empty() && !o.oversubscribe)
       fmt::print("it would be refused: {}\n", why);
     return 0;
   }
-  check_plan(plan, all);
+  in_plan(o, [&] { check_plan(plan, all); });
   check_cores(threads_of(plan, all), o.oversubscribe);
   if (plan.builds != static_cast<int>(o.programs.size()) + 1)
     throw error(plan.builds == 1
@@ -173,11 +195,13 @@ int start(const run_options& o, const given_options& given) {
   if (given.at("out") && o.out.empty()) throw error("--out takes the name of a file, not \"\"");
   study_options options;
   options.binding = o.binding;
-  options.out = o.out.empty() ? rows_path(o.results, plan, o.fresh, o.binding) : std::filesystem::path(o.out);
-  if (o.fresh && !o.out.empty() && std::filesystem::exists(options.out))
-    throw error(fmt::format("--fresh makes a new file, but {} is there", options.out.string()));
+  if (o.fresh && !o.out.empty() && std::filesystem::exists(o.out))
+    throw error(fmt::format("--fresh makes a new file, but {} is there", o.out));
   options.builds.push_back(in_a_process(this_program()));
   for (const std::string& program : o.programs) options.builds.push_back(in_a_process(program));
+  check_name(o.out.empty() ? o.results : o.out);
+  const new_folders made(o.out.empty() ? std::filesystem::path(o.results) / plan.study : std::filesystem::path());
+  options.out = o.out.empty() ? rows_path(o.results, plan, o.fresh, o.binding) : std::filesystem::path(o.out);
   options.program = called_as();
   options.again = o.again;
   return conduct(plan, options, all);

@@ -22,6 +22,7 @@
 #include "harness/rows/whole_file.hpp"
 #include "harness/run/launch.hpp"
 #include "harness/terminal/interrupt.hpp"
+#include "harness/terminal/program.hpp"
 #include "harness/terminal/terminal.hpp"
 #include "harness/tune/profile_json.hpp"
 #include "harness/tune/tune_json.hpp"
@@ -80,6 +81,8 @@ void check_writable(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (path.empty()) throw error("--save takes the name of a file, not \"\"");
   if (std::filesystem::is_directory(path, code)) throw error("cannot write " + path + ": it is a folder" + instead);
+  if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
+    throw error("cannot write " + path + ": it is no regular file" + instead);
   if (::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
     throw error("cannot write " + path + ": its folder is not there or not writable" + instead);
   if (std::filesystem::exists(path, code) && !is_profile(path))
@@ -107,12 +110,12 @@ int start_tuning(const tune_settings& o, const given_options& given) {
   if (saved) {
     const bool replaces = is_profile(o.save);
     write_whole_file(profile_json(r, result, all).dump(2) + "\n", o.save);
-    fmt::print(lines, "\nprofile: {}{}\nto measure it again:\n  {} run --profile {}{}\n", o.save,
+    fmt::print(lines, "\nprofile: {}{}\nto measure it again:\n  {} run --profile {}{}\n", one_line(o.save),
                replaces ? " (in place of the one that was there)" : "", shell_word(called_as()), shell_word(o.save),
                o.oversubscribe ? " --oversubscribe" : "");
   }
   if (result.interrupted) fmt::print(lines, "interrupted; no profile was written\n");
-  if (o.json) fmt::print("{}\n", tune_json(r, result, all, saved ? o.save : "").dump(2));
+  if (o.json) fmt::print("{}\n", tune_json(r, result, all, saved ? one_line(o.save) : "").dump(2));
   if (result.interrupted) return 130;
   return std::ranges::count(result.candidates, fate::wrong, &contestant::what) == 0 ? 0 : 1;
 }

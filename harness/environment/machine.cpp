@@ -12,6 +12,7 @@
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/job_limits.hpp>
+#include "harness/rows/fields.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -31,6 +32,9 @@ std::map<std::string, std::uint64_t> cache_sizes() {
   hwloc_topology_destroy(topology);
   return sizes;
 }
+
+/// What others may print.
+std::string text_or_unknown(const std::string& text) { return has_controls(text) ? "unknown" : text; }
 
 std::string cpu_name() {
   std::ifstream info("/proc/cpuinfo");
@@ -109,8 +113,8 @@ machine describe_machine() {
   machine m;
   char host[256] = "unknown";
   gethostname(host, sizeof host - 1);
-  m.host = host;
-  m.cpu = cpu_name();
+  m.host = text_or_unknown(host);
+  m.cpu = text_or_unknown(cpu_name());
   utsname os{};
   if (uname(&os) == 0) m.os_kernel = std::string(os.sysname) + " " + os.release;
   m.caches = cache_sizes();

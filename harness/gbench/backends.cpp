@@ -9,6 +9,7 @@
 #include <pairsum/sum/setup_of.hpp>
 #include "harness/environment/machine.hpp"
 #include "harness/gbench/bench.hpp"
+#include "harness/measure/binding.hpp"
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
 #include "harness/rows/point_words.hpp"
@@ -18,6 +19,12 @@
 namespace pairsum::harness {
 namespace {
 
+/// The only one of the process, which comes before any thread is bound.
+const thread_binding& binding_of(const bench_request& r) {
+  static const thread_binding the_one(r.binding);
+  return the_one;
+}
+
 /// Particles and reference, made when the first benchmark needs them.
 struct shared_world {
   initial_condition initial;
@@ -25,7 +32,7 @@ struct shared_world {
 
   explicit shared_world(const bench_request& r)
       : initial(make_case(r.case_name, {.dx = r.dx, .H = 0, .state = r.state, .seed = 1})) {
-    const worker_team all(runtime::omp, untimed_threads(usable_cores()));
+    const worker_team all(runtime::omp, untimed_threads(usable_cores()), &binding_of(r));
     oracle = std::make_unique<verifier>(registry::instance(), setup_of(initial), initial.particles, all.get());
   }
 };
@@ -40,7 +47,7 @@ shared_world& world_of(const bench_request& r) {
 void sum_benchmark(benchmark::State& state, const bench_request& r, const point& p) {
   shared_world& w = world_of(r);
   const auto summation = registry::instance().make_summation(setup_of_point(p, w.initial));
-  const worker_team workers(summation->traits().threads, p.threads);
+  const worker_team workers(summation->traits().threads, p.threads, &binding_of(r));
   const team& t = workers.get();
   summation->load(w.initial.particles, {});
   summation->evaluate(t);
@@ -95,7 +102,8 @@ run_request as_run(const bench_request& r) {
 
 bool any_failed() { return any_refused; }
 
-void register_backends(const bench_request& r) {
+std::string register_backends(const bench_request& r) {
+  const std::string pinned = binding_of(r).description();
   for (const world_plan& points : expand(as_run(r)))
     for (const point& p : points) {
       const backend_traits& traits = registry::instance().find_backend(p.backend).traits;
@@ -108,6 +116,7 @@ void register_backends(const bench_request& r) {
           ->UseManualTime()
           ->Unit(benchmark::kMillisecond);
     }
+  return pinned;
 }
 
 }  // namespace pairsum::harness

@@ -12,6 +12,7 @@ struct bench_request {
   double dx = 0.02;
   std::vector<int> M{6, 7}, threads{1};
   std::vector<std::string> grids{"hashed_grid"}, isas{"default"}, blocks{"auto"};
+  std::string binding = "cores_first";  ///< how threads are pinned (thread_binding)
 };
 
 /// The same as a request, of every backend that is built.
@@ -20,8 +21,8 @@ run_request as_run(const bench_request& r);
 /// Registers one benchmark per backend x grid x M x threads, "symmetric_omp/dam_break/M:6/threads:2" or
 /// "symmetric_omp/dam_break/compact_grid/threads:2", with isa and block where a backend chooses them: manual time of
 /// the summation phase, counters for the other phases and the work. A backend whose rates are wrong gets an error
-/// instead of a time.
-void register_backends(const bench_request& r);
+/// instead of a time. Returns how their threads are pinned, in words.
+std::string register_backends(const bench_request& r);
 
 /// Did a backend have wrong rates?
 bool any_failed();

@@ -2,13 +2,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <optional>
 
 #include <pairsum/core/error.hpp>
 #include "harness/environment/environment.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/gbench/bench.hpp"
+#include "harness/gbench/out_file.hpp"
 #include "harness/measure/memory.hpp"
 #include "harness/plan/plan.hpp"
+#include "harness/plan/refusal.hpp"
 #include "harness/plan/words.hpp"
 #include "harness/plugin/plugins.hpp"
 #include "harness/terminal/program.hpp"
@@ -17,11 +21,33 @@ namespace {
 
 using namespace pairsum::harness;
 
-/// Takes the program's own flags out of the command line; what is left is Google Benchmark's.
-bench_request parse(CLI::App& app, int argc, char** argv, std::vector<std::string>& rest) {
-  bench_request r;
+/// What the program takes out of the command line; the other words are Google Benchmark's.
+struct words_given {
+  bench_request request;
+  std::string out, out_format = "json", format = "console";
+  std::vector<std::string> rest;
+};
+
+/// Those of Google Benchmark's options with which it does something else than it was told, or says nothing: it gets
+/// them when they were found to be right.
+void add_checked_options(CLI::App& app, words_given& w, std::optional<double>& least_s,
+                         std::optional<std::int64_t>& times) {
+  app.add_option("--benchmark_out", w.out)->envname("BENCHMARK_OUT");
+  const CLI::IsMember known({"json", "console", "csv"});
+  app.add_option("--benchmark_out_format", w.out_format)->envname("BENCHMARK_OUT_FORMAT")->check(known);
+  app.add_option("--benchmark_format", w.format)->envname("BENCHMARK_FORMAT")->check(known);
+  app.add_option("--benchmark_min_time", least_s)->envname("BENCHMARK_MIN_TIME");
+  app.add_option("--benchmark_repetitions", times)->envname("BENCHMARK_REPETITIONS");
+}
+
+words_given parse(int argc, char** argv) {
+  CLI::App app("", "pairsum_bench");
+  words_given w;
+  bench_request& r = w.request;
   bool oversubscribe = false;
   std::string M = "6,7", threads = "all", grid = "hashed_grid", isa = "default", block = "auto";
+  std::optional<double> least_s;
+  std::optional<std::int64_t> times;
   app.allow_extras();
   app.set_help_flag("");
   app.add_option("--case", r.case_name);
@@ -32,11 +58,25 @@ bench_request parse(CLI::App& app, int argc, char** argv, std::vector<std::strin
   app.add_option("--grid", grid);
   app.add_option("--isa", isa);
   app.add_option("--block", block);
+  app.add_option("--binding", r.binding);
   app.add_flag("--oversubscribe", oversubscribe);
   add_plugin_option(app);
-  app.parse(argc, argv);
+  add_checked_options(app, w, least_s, times);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    throw refusal(app, e, {"M", "threads", "grid", "isa", "block"});
+  }
+  if (least_s && !(*least_s > 0 && std::isfinite(*least_s)))
+    throw pairsum::error(fmt::format("--benchmark_min_time must be positive and finite, is {}", *least_s));
+  if (constexpr int most = 1000000; times && (*times < 1 || *times > most))
+    throw pairsum::error(fmt::format("--benchmark_repetitions must be at least 1 and at most {}, is {}", most, *times));
   load_named_plugins();
-  rest = app.remaining();
+  w.rest = app.remaining();
+  w.rest.push_back("--benchmark_format=" + w.format);
+  if (!w.out.empty()) w.rest.push_back("--benchmark_out=" + w.out);
+  if (least_s) w.rest.push_back(fmt::format("--benchmark_min_time={}", *least_s));
+  if (times) w.rest.push_back(fmt::format("--benchmark_repetitions={}", *times));
   r.M = parse_counts("--M", M, 0);
   r.threads = parse_counts("--threads", threads, usable_cores());
   r.grids = parse_words("--grid", grid);
@@ -44,20 +84,18 @@ bench_request parse(CLI::App& app, int argc, char** argv, std::vector<std::strin
   r.blocks = parse_words("--block", block);
   check_request(as_run(r));
   check_cores(r.threads, oversubscribe);
-  return r;
+  return w;
 }
 
 int run(int argc, char** argv) {
-  CLI::App app;
-  std::vector<std::string> rest;
-  const bench_request r = parse(app, argc, argv, rest);
+  words_given given = parse(argc, argv);
   std::vector<char*> words{argv[0]};
-  for (std::string& w : rest) {
+  for (std::string& w : given.rest) {
     if (w == "--help" || w == "-h") {
       fmt::print(
           "pairsum_bench [--case NAME] [--dx M] [--state rest|perturbed] [--M 6,7] [--threads 1,2|all] "
-          "[--grid NAMES] [--isa NAMES] [--block auto,slab:4] [--oversubscribe] [--plugin FILE] "
-          "[--benchmark_filter=REGEX ...]\n");
+          "[--grid NAMES] [--isa NAMES] [--block auto,slab:4] [--binding cores_first|none] [--oversubscribe] "
+          "[--plugin FILE] [--benchmark_filter=REGEX ...]\n");
       benchmark::PrintDefaultHelp();
       return 0;
     }
@@ -66,14 +104,17 @@ int run(int argc, char** argv) {
   int n = static_cast<int>(words.size());
   benchmark::Initialize(&n, words.data());
   if (benchmark::ReportUnrecognizedArguments(n, words.data())) return 2;
+  out_file out(given.out, given.out_format);
   keep_freed_memory();
   benchmark::AddCustomContext("pairsum", describe_build());
   if (const std::string note = limits_note(); !note.empty()) benchmark::AddCustomContext("limits", note);
   for (const auto& [name, file] : loaded_plugins()) benchmark::AddCustomContext("plugin " + name, file);
-  register_backends(r);
+  benchmark::AddCustomContext("binding", register_backends(given.request));
   register_parts();
-  const bool any = benchmark::RunSpecifiedBenchmarks() > 0;  // or the library has said what is wrong with the filter
+  // It has said what is wrong with the filter where that leaves none.
+  const bool any = benchmark::RunSpecifiedBenchmarks(nullptr, out.reporter()) > 0;
   benchmark::Shutdown();
+  out.check();
   return !any ? 2 : any_failed() ? 1 : 0;
 }
 

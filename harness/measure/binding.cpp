@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 
@@ -119,8 +120,13 @@ void thread_binding::release_this_thread() const {
 const std::vector<int>& thread_binding::units() const { return state_->units; }
 
 std::string thread_binding::description() const {
-  if (state_->word == "none")
-    return omp_get_proc_bind() == omp_proc_bind_false ? "none" : "none: left to OMP_PROC_BIND";
+  if (state_->word == "none") {
+    if (omp_get_proc_bind() == omp_proc_bind_false) return "none";
+    const char* who = "OMP_PROC_BIND";
+    for (const char* name : {"GOMP_CPU_AFFINITY", "OMP_PLACES", "OMP_PROC_BIND"})  // the last that is set decides
+      if (std::getenv(name) != nullptr) who = name;
+    return std::string("none: left to ") + who;
+  }
   if (!state_->why.empty()) return "none: " + state_->why;
   if (const int e = state_->failed) return std::string("none: ") + std::strerror(e);
   std::string text = state_->word;

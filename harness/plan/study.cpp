@@ -58,12 +58,11 @@ bool flag_of(const json& value, const std::string& key) {
 
 /// "rounds": a number, or [least, most].
 void read_rounds(part_plan& part, const json& value) {
-  constexpr int limit = 1000000;
   if (value.is_array() && value.size() == 2) {
-    part.least_rounds = whole_of(value[0], "rounds", 1, limit);
-    part.most_rounds = whole_of(value[1], "rounds", part.least_rounds, limit);
+    part.least_rounds = whole_of(value[0], "rounds", 1, rounds_limit);
+    part.most_rounds = whole_of(value[1], "rounds", part.least_rounds, rounds_limit);
   } else {
-    part.least_rounds = part.most_rounds = whole_of(value, "rounds", 1, limit);
+    part.least_rounds = part.most_rounds = whole_of(value, "rounds", 1, rounds_limit);
   }
 }
 

@@ -12,6 +12,7 @@
 namespace pairsum::harness {
 
 inline constexpr const char* plan_schema = "pairsum.plan/1";
+inline constexpr int rounds_limit = 1000000;  ///< of a part
 
 /// A part of a study: points that are measured interleaved, in rounds of a fresh process each.
 struct part_plan {

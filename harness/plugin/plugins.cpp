@@ -15,6 +15,7 @@
 #include <pairsum/core/error.hpp>
 #include <pairsum/plugin.hpp>
 #include <pairsum/sum/registry.hpp>
+#include "harness/rows/fields.hpp"
 #include "harness/rows/hash_text.hpp"
 
 namespace pairsum::harness {
@@ -45,8 +46,20 @@ std::string content_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// Its words are printed, and stand in rows.
+void check_texts(const std::string& file, const std::string& name) {
+  std::vector<std::string> texts{name};
+  for (const backend_entry& b : registry::instance().backends())
+    for (const std::string_view text : {b.traits.name, b.traits.description, b.traits.aliases})
+      texts.emplace_back(text);
+  for (const auto& word : registry::instance().interactions()) texts.emplace_back(word);
+  if (std::ranges::any_of(texts, has_controls))
+    throw error(fmt::format("plug-in {}: a name or description in it has control characters", file));
+}
+
 /// Never closed: the registry points into it.
 void load_plugin(const std::string& file) {
+  if (has_controls(file)) throw error(fmt::format("plug-in {}: its path has control characters", file));
   static std::vector<void*> opened;
   void* const object = ::dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) throw error(fmt::format("cannot open plug-in {}", ::dlerror()));  // which names the file
@@ -69,6 +82,7 @@ void load_plugin(const std::string& file) {
   } catch (const std::exception& e) {
     throw error(fmt::format("plug-in {}: {}", file, e.what()));
   }
+  check_texts(file, offered->name);
 }
 
 }  // namespace

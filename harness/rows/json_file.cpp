@@ -20,6 +20,29 @@ using nlohmann::json;
 constexpr int deepest = 32;
 constexpr std::size_t most_bytes = std::size_t{16} << 20;
 
+std::string twice(const json& key) { return "key " + key.dump() + " is there twice in its object"; }
+
+/// Of all its objects.
+std::size_t keys_in(const json& value) {
+  std::size_t n = value.is_object() ? value.size() : 0;
+  for (const json& part : value)
+    if (part.is_structured()) n += keys_in(part);
+  return n;
+}
+
+/// Colons outside of strings, one behind each key, of a text that is JSON.
+std::size_t colons_in(std::string_view text) {
+  std::size_t n = 0;
+  bool inside = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    inside ^= c == '"';
+    n += c == ':' && !inside ? 1 : 0;
+    at += c == '\\' ? 1 : 0;  // only strings have some
+  }
+  return n;
+}
+
 /// Goes through a text and says how far any copy of it has come.
 class reported {
  public:
@@ -71,7 +94,7 @@ class reading {
     if (event != is::key || keys_.back().insert(part.get<std::string>()).second) return;
     do --reached_;
     while (!begins_key());
-    fail("key " + part.dump() + " is there twice in its object");
+    fail(twice(part));
   }
 
   /// Is the last byte before `reached_` the quotation mark with which the key begins?
@@ -122,6 +145,20 @@ json parse_json(std::string_view text, const std::string& name) {
   text = without_mark(text);
   if (text.find_first_not_of(" \t\r\n") == text.npos) throw error(name + ": is empty, should be JSON");
   return reading(text, name).value();
+}
+
+std::optional<std::string> doubled_key(std::string_view text, const json& value) {
+  if (colons_in(text) == keys_in(value)) return std::nullopt;
+  std::vector<std::set<json>> objects;
+  std::optional<std::string> found;
+  const auto look = [&](int, json::parse_event_t event, json& part) {
+    if (event == json::parse_event_t::object_start) objects.emplace_back();
+    if (event == json::parse_event_t::object_end) objects.pop_back();
+    if (event == json::parse_event_t::key && !objects.back().insert(part).second && !found) found = twice(part);
+    return true;
+  };
+  static_cast<void>(json::parse(text, look));
+  return found;
 }
 
 json read_json_file(const std::filesystem::path& path, const std::string& kind) {

@@ -114,6 +114,7 @@ class rows_reader::parser {
            std::to_string(rows_.size()) + " whole rows before it");
     }
     if (!parsed) fail(why);
+    if (const auto twice = doubled_key(line, j)) fail(*twice);
     try {
       row r = parse_row(j);
       former_ = j.at("schema") == former_row_schema;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include <pairsum/cases/case.hpp>
+#include <pairsum/core/memory.hpp>
 #include <pairsum/core/workers.hpp>
 #include <pairsum/sum/setup_of.hpp>
 #include "harness/environment/machine.hpp"
@@ -15,12 +16,19 @@
 namespace pairsum::harness {
 namespace {
 
-/// Particles of a case at a spacing, extrapolated from a coarser one where making it would take long.
+/// Particles of a case at a spacing; from two coarser ones, as an inside and a surface, where making it would take
+/// long. What is too large for ids or memory is made, which refuses it at once.
 double particles_of(const run_request& r, double dx) {
   if (!r.particles.empty()) return static_cast<double>(initial_of(r, dx, state_of_files).initial.particles.size());
-  const double coarse = std::max(dx, 0.04);
-  const double n = static_cast<double>(make_case(r.case_name, {r.dim, coarse, r.H, "rest", r.seed}).particles.size());
-  return std::min(n * std::pow(coarse / dx, r.dim), 0x1p32);  // more than that is refused
+  constexpr double fine = 0.025, full = 0.95, most_ids = 4e9;
+  const auto made = [&](double spacing) {
+    return static_cast<double>(make_case(r.case_name, {r.dim, spacing, r.H, "rest", r.seed}).particles.size());
+  };
+  if (!(dx < fine)) return made(dx);
+  const double n = made(fine), inside = 2 * (n - std::ldexp(made(2 * fine), r.dim - 1));
+  const double estimated = inside * std::pow(fine / dx, r.dim) + (n - inside) * std::pow(fine / dx, r.dim - 1);
+  const bool may_fit = estimated < full * std::min(most_ids, usable_memory() / bytes_per_particle);
+  return may_fit ? estimated : made(dx);
 }
 
 }  // namespace

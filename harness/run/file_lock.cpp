@@ -17,6 +17,9 @@ file_lock::~file_lock() {
 
 void file_lock::take() {
   if (file_ >= 0) return;
+  std::error_code code;
+  if (std::filesystem::is_fifo(path_, code))  // opening it would wait for another program
+    throw error(path_.string() + ": is no regular file, should be a rows file");
   file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0 || ::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
   ::close(file_);

@@ -8,8 +8,8 @@ namespace pairsum::harness {
 /// process, however that ends; no file is made.
 class file_lock {
  public:
-  /// Throws pairsum::error if the lock is held by another process. A file that does not exist yet is not locked: call
-  /// take() once it does.
+  /// Throws pairsum::error if the lock is held by another process, or for a pipe with a name. A file that does not
+  /// exist yet is not locked: call take() once it does.
   explicit file_lock(std::filesystem::path path);
   ~file_lock();
   file_lock(const file_lock&) = delete;

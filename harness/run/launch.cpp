@@ -22,6 +22,7 @@
 #include "harness/measure/cpu_time.hpp"
 #include "harness/run/worker.hpp"
 #include "harness/terminal/interrupt.hpp"
+#include "harness/terminal/program.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -115,11 +116,13 @@ std::string called_as() {
 std::string shell_word(const std::string& word) {
   constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+@%-";
   if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
-  if (std::ranges::any_of(word, is_control)) {
+  const auto is_plain = [](char c) {
+    return static_cast<unsigned char>(c) >= 0x20 && static_cast<unsigned char>(c) < 0x7F;
+  };
+  if (one_line(word) != word) {
     std::string escaped = "$'";
     for (const char c : word)
-      escaped += is_control(c)            ? fmt::format("\\{:03o}", c)
+      escaped += !is_plain(c)             ? fmt::format("\\{:03o}", static_cast<unsigned char>(c))
                  : c == '\'' || c == '\\' ? fmt::format("\\{}", c)
                                           : std::string(1, c);
     return escaped + "'";

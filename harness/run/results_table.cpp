@@ -36,16 +36,19 @@ struct cell {
 };
 using line = std::vector<cell>;
 
-/// The row of a point that is `place`-th from the fastest; of one alone there is no ratio.
+/// The row of a point that is `place`-th from the fastest; of one alone, or without a rank, there is no ratio.
 line row_of(const ranked& r, std::size_t place, const level_columns& levels, bool alone) {
   line cells{{r.what.backend}};
-  if (place == 0 && !alone) cells.front().how = tone::good;
+  const bool fastest = place == 0 && r.has_rank();
+  if (fastest && !alone) cells.front().how = tone::good;
   for (const std::string& word : levels.words_of(r)) cells.push_back({word});
   const std::vector<double> step = values_of(r.step_s), sum = values_of(r.sum_s);
   const double sum_s = median(sum);
   cells.push_back({digits(1e3 * median(step))});
   cells.push_back({interval_text(median_interval(step), 1e3)});
-  if (!alone && place == 0) {
+  if (!alone && !r.has_rank()) {
+    cells.insert(cells.end(), {{"-"}, {"-"}, {"no answer", tone::doubtful}});
+  } else if (!alone && fastest) {
     cells.insert(cells.end(), {{digits(1)}, {""}, {"fastest", tone::good}});
   } else if (!alone) {
     cells.push_back({digits(r.ratio.value)});
@@ -143,9 +146,11 @@ std::string results_table(const std::vector<ranking>& all, bool colours, std::si
         own.push_back(row_of(r, k, levels, alone));
         ++shown;
         if (r.lost > 0)
-          own.push_back({{fmt::format("{} lost {} of {} fluid particles: its later steps sum the others alone",
-                                      levels.name_of(r), r.lost, r.what.n_fluid),
-                          tone::doubtful}});
+          own.push_back(
+              {{fmt::format(
+                    "{} lost {} of {} fluid particles: its later steps sum the others alone, so it is not ranked",
+                    levels.name_of(r), r.lost, r.what.n_fluid),
+                tone::doubtful}});
       }
     }
     if (own.empty()) continue;

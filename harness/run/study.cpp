@@ -38,7 +38,8 @@ class conductor {
         estimate_(plan, all),
         line_(standing{}, plan.budget_s) {
     const std::size_t cut = file_.mend();
-    if (cut > 0) say(fmt::format("{}: a last line that was cut ({} bytes) is taken away", options.out.string(), cut));
+    if (cut > 0)
+      say(fmt::format("{}: a last line that was cut ({} bytes) is taken away", one_line(options.out.string()), cut));
   }
 
   int run() {
@@ -72,7 +73,7 @@ class conductor {
                            p.least_rounds == p.most_rounds ? fmt::format("{}", p.most_rounds)
                                                            : fmt::format("{} to {}", p.least_rounds, p.most_rounds),
                            p.request.part);
-    return fmt::format("resuming {}: rounds there: {}", options_.out.string(), parts);
+    return fmt::format("resuming {}: rounds there: {}", one_line(options_.out.string()), parts);
   }
 
   double left() const { return plan_.budget_s - since_start_.seconds(); }

@@ -103,21 +103,66 @@ need_value() { (($2 > 1)) || stop 2 "$1 needs a value (see --help)"; }
 # need_count OPTION VALUE: the value must be a whole number from 1.
 need_count() { [[ $2 =~ ^[1-9][0-9]{0,5}$ ]] || stop 2 "$1 needs a whole number from 1, not '$2'"; }
 
-cores() { env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc; }
+# groups_of CONTROLLER: the folders of the control groups, of version 1 or 2, that this job is in, and of those above.
+groups_of() {
+  local controllers group top
+  while IFS=: read -r _ controllers group; do
+    top=${system_root:-}/sys/fs/cgroup
+    if [[ -z $controllers ]]; then
+      [[ ! -d $top/unified ]] || top+=/unified
+    elif [[ ,$controllers, == *,$1,* ]]; then
+      top+=/$controllers
+    else
+      continue
+    fi
+    until [[ -z $group ]]; do
+      echo "$top$group"
+      group=${group%/*}
+    done
+    echo "$top"
+  done <"${system_root:-}/proc/self/cgroup"
+}
+
+# numbers_in FOLDER FILE...: the numbers with which the files begin, if each begins with one.
+numbers_in() {
+  local folder=$1 file number numbers=
+  shift
+  for file in "$@"; do
+    read -r number _ 2>/dev/null <"$folder/$file" || true
+    [[ ${number:-} =~ ^[0-9]+$ ]] || return 0
+    numbers+="$number "
+    number=
+  done
+  echo "$numbers"
+}
+
+# cores: how many this job may use at the same time: taskset and the quota of a container count.
+cores() {
+  local all folder max quota period
+  all=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)
+  while read -r folder; do
+    read -r max 2>/dev/null <"$folder/cpu.max" || max=$(numbers_in "$folder" cpu.cfs_quota_us cpu.cfs_period_us)
+    read -r quota period <<<"$max"
+    [[ $quota =~ ^[1-9][0-9]*$ && $period =~ ^[1-9][0-9]*$ ]] || continue
+    ((quota / period >= all)) || all=$((quota / period))
+  done < <(groups_of cpu)
+  ((all >= 1)) || all=1
+  echo "$all"
+}
 
 # free_memory_mb, free_disk_mb: what is available here; a container's own memory limit counts.
 free_memory_mb() {
-  local free limit used of
+  local free folder limit used
   free=$(awk '$1 == "MemAvailable:" {print int($2 / 1024)}' /proc/meminfo 2>/dev/null || true)
   free=${free:-0}
-  for of in "memory.max memory.current" "memory/memory.limit_in_bytes memory/memory.usage_in_bytes"; do
-    if read -r limit 2>/dev/null <"/sys/fs/cgroup/${of% *}" && [[ $limit =~ ^[0-9]+$ ]] &&
-      read -r used 2>/dev/null <"/sys/fs/cgroup/${of#* }"; then
-      limit=$(((limit - used) / 1048576))
-      ((limit >= free)) || free=$limit
-    fi
-  done
-  echo "$free"
+  while read -r folder; do
+    read -r limit used <<<"$(numbers_in "$folder" memory.max memory.current)"
+    [[ -n $used ]] || read -r limit used <<<"$(numbers_in "$folder" memory.limit_in_bytes memory.usage_in_bytes)"
+    [[ -n $used ]] || continue
+    limit=$(((limit - used) / 1048576))
+    ((limit >= free)) || free=$limit
+  done < <(groups_of memory)
+  echo "$((free > 0 ? free : 0))"
 }
 free_disk_mb() { df -Pk . | awk 'NR == 2 {print int($4 / 1024)}'; }
 

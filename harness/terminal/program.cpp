@@ -38,6 +38,12 @@ void on_exit_call(int code, void*) {
 
 bool is_lost(std::FILE* stream) { return std::fflush(stream) != 0 || std::ferror(stream) != 0; }
 
+/// Why output was lost. Where that happened too long ago for errno, one more byte meets the same fate.
+std::string reason_of_loss(int number) {
+  if (number == 0 && ::write(STDOUT_FILENO, "\n", 1) < 0) number = errno;
+  return number != 0 ? std::strerror(number) : "it could not be written";
+}
+
 int carried_out(const std::function<int()>& work) {
   try {
     return work();
@@ -73,7 +79,7 @@ int as_program(const char* name, const std::function<int()>& work) {
   ended = true;
   errno = 0;
   const bool lost = is_lost(stdout);
-  if (lost) complain(fmt::format("its output is lost: {}", errno != 0 ? std::strerror(errno) : "it cannot be written"));
+  if (lost) complain("its output is lost: " + reason_of_loss(errno));
   return lost || is_lost(stderr) ? 2 : code;
 }
 

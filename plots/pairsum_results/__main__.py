@@ -122,16 +122,17 @@ def _report(options: argparse.Namespace) -> None:
     _say("\n".join(said_of(said.answer)))
     if options.tables:
         _say("\n" + tables.rstrip("\n"))
-    _say(f"tables:  {folder}/tables.txt, tables.md, csv/, rounds.csv, summary.json")
+    shown = one_line(str(folder))
+    _say(f"tables:  {shown}/tables.txt, tables.md, csv/, rounds.csv, summary.json")
     if options.tables:
         return
     from . import page, paper
 
     if options.paper:
         paper.write(said, folder / "paper")
-        _say(f"paper:   {folder / 'paper'}")
-    _say(f"figures: {len(page.write([said, *others], folder))} files, {folder}/*.png")
-    _say(f"page:    {folder / 'report.html'}")
+        _say(f"paper:   {shown}/paper")
+    _say(f"figures: {len(page.write([said, *others], folder))} files, {shown}/*.png")
+    _say(f"page:    {shown}/report.html")
 
 
 def _compare_program(programs) -> None:
@@ -185,7 +186,7 @@ def _history(options: argparse.Namespace) -> int:
     folder = options.out or (first if first.is_dir() else first.parent) / "history"
     found = load_history(options.inputs, f"{options.phase}_s")
     _say(history_report.write(found, folder).rstrip("\n"))
-    _say(f"page: {folder / 'history.html'}")
+    _say(f"page: {one_line(str(folder / 'history.html'))}")
     return 1 if len(found.slower) else 0
 
 

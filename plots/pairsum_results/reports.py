@@ -60,12 +60,15 @@ def _caveats(results: Results, tables: dict[str, pd.DataFrame], tested: pd.DataF
     points, labels = results.points, compare.labels(results)
     found = list(results.caveats)
     for what, which in (("more threads than cores", points["threads"] > points["cores"]),
-                        ("fewer threads worked in a step than were asked for",
-                         points["threads_worked"] < points["threads"]),
                         (f"fewer than {FEWEST_FOR_MEDIAN} rounds, so no interval of the median",
                          points["rounds"] < FEWEST_FOR_MEDIAN)):
         if which.any():
             found.append(f"{what}: {compare.first_few(list(labels[which]))}")
+    steps = results.samples[results.samples["counts"]]
+    few = (steps["threads_worked"] < steps["threads"]).groupby(steps["point"]).agg(["sum", "size"])
+    if (few := few[few["sum"] > 0]).size:
+        found.append("fewer threads worked in a step than were asked for: " + compare.first_few(
+            [f"{labels[e.Index]} ({e.sum} of {e.size} steps)" for e in few.itertuples()]))
     if (losing := points[points["lost"] > 0]).size:
         found.append("particles left Omega, and later steps summed the others alone: " + compare.first_few(
             [f"{labels[e.Index]} ({e.lost:.0f} of {e.n_fluid} fluid particles)" for e in losing.itertuples()]))

@@ -12,6 +12,8 @@ from typing import Any, Callable, Iterable, Iterator
 import numpy as np
 import pandas as pd
 
+from .words import one_line
+
 SCHEMAS = ("pairsum.row/3", "pairsum.row/2")
 PHASES = ["index_s", "prepare_s", "zero_s", "sum_s", "reduce_s", "integrate_s", "total_s"]
 
@@ -158,6 +160,27 @@ def _no_constant(name: str) -> None:
     raise ValueError(name)
 
 
+def _keys_of(value: dict[str, Any]) -> int:
+    return len(value) + sum([_keys_of(part) for part in value.values() if type(part) is dict])
+
+
+def _doubled_key(line: str, row: dict[str, Any]) -> str | None:
+    """A key that an object of a row says twice. Where the parser has kept as many keys as the line has, there is none
+    to be looked for."""
+    if line.count('":') == _keys_of(row) and '" ' not in line and '"\t' not in line and '"\r' not in line:
+        return None
+    found = []
+
+    def look(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        keys = [key for key, _ in pairs]
+        if len(set(keys)) < len(keys):
+            found.append(next(key for k, key in enumerate(keys) if key in keys[:k]))
+        return dict(pairs)
+
+    json.loads(line, object_pairs_hook=look)
+    return found[0] if found else None
+
+
 def _lines(path: pathlib.Path) -> Iterator[tuple[str, bool, bool]]:
     """Of every line of a file its text, whether its end is missing, and whether it is the last."""
     try:
@@ -198,6 +221,8 @@ def _parsed(path: pathlib.Path) -> list[dict]:
         if type(row) is not dict:
             raise ResultsError(f"{path}:{number}: " + ("it is no whole JSON value" if row is None else
                                                        f"a row should be an object, is {describe(row)}"))
+        if (twice := _doubled_key(line, row)) is not None:
+            raise ResultsError(f"{path}:{number}: key {json.dumps(twice)} is there twice in its object")
         rows.append(row)
     return rows
 
@@ -289,7 +314,7 @@ def read(given: str | pathlib.Path | Iterable[str | pathlib.Path]) -> dict[str, 
     file, and for one that holds a round of another with other values."""
     paths, files = rows_paths(given), []
     for number, path in enumerate(paths):
-        source = (pathlib.Path(path.parent.name) / path.name).as_posix()
+        source = one_line((pathlib.Path(path.parent.name) / path.name).as_posix())
         files.append({kind: frame.assign(file=number, source=source) for kind, frame in read_file(path).items()})
     # Without the empty ones, whose columns of floats would make floats of integers.
     found = {kind: pd.concat([rows[kind] for rows in files if len(rows[kind])] or [files[0][kind]], ignore_index=True)

@@ -13,7 +13,7 @@ from .ladders import made_for
 from .load import PLACE, POINT, Results, cells_words, collect, load, place_words
 from .rows import IDENTITY, PHASES, ResultsError, read
 from .summary import plain
-from .words import bounded, hint, ms, text_table, unknown, wrapped
+from .words import bounded, hint, ms, one_line, text_table, unknown, wrapped
 
 SCHEMA = "pairsum.compare/1"
 
@@ -34,7 +34,7 @@ class Comparison:
 
     def text(self) -> str:
         """A table and a sentence."""
-        text = f"A: {self.a}\nB: {self.b}\n"
+        text = f"A: {one_line(self.a)}\nB: {one_line(self.b)}\n"
         if (self.pairs["rounds"] == 0).any():
             text += wrapped("measured apart, so not paired: what disturbed one of them alone is in the ratio")
         text += wrapped(f"they differ in {self.differ}") if self.differ else ""

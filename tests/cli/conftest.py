@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import shutil
 import subprocess
 
 import pytest
@@ -31,13 +32,18 @@ def pairsum(tmp_path):
     return call
 
 
-@pytest.fixture
-def rows(pairsum, tmp_path):
-    """A small valid rows file."""
-    path = tmp_path / "rows.jsonl"
-    done = pairsum("run", *SMALL, "--out", path)
+@pytest.fixture(scope="session")
+def small_run(tmp_path_factory):
+    path = tmp_path_factory.mktemp("small_run") / "rows.jsonl"
+    done = subprocess.run([BIN / "pairsum", "run", *SMALL, "--out", path], text=True, capture_output=True, timeout=300)
     assert done.returncode == 0, done.stderr
     return path
+
+
+@pytest.fixture
+def rows(small_run, tmp_path):
+    """A small valid rows file."""
+    return pathlib.Path(shutil.copy(small_run, tmp_path))
 
 
 def refused(done, *says):

@@ -1,6 +1,7 @@
 """Bad input: one clear line, exit code 2, nothing lost or half-written."""
 
 import json
+import os
 import platform
 
 import pytest
@@ -42,6 +43,8 @@ BAD_RUNS = [
     (["--dim", "4"], ["dimension", '"4"']),
     (["--steps", "0"], ["steps must be at least 1"]),
     (["--rounds", "0"], ["rounds must be at least 1"]),
+    (["--rounds", "99999999999"], ["rounds must be at least 1 and at most 1000000, is 99999999999"]),
+    (["--rounds", "many"], ["--rounds takes a number, not \"many\""]),
     (["--repetitions", "0"], ["repetitions must be at least 1"]),
     (["--half-width", "-1"], ["half-width must be at least 0"]),
     (["--half-width", "inf"], ["half-width must be at least 0 and finite"]),
@@ -75,6 +78,23 @@ def test_run_refuses(pairsum, tmp_path, words, says):
     assert not out.exists()
 
 
+MEMORY = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGESIZE")
+TOO_FINE = 1 / round((1.2 * MEMORY / 500) ** (1 / 3))  # particles of 500 bytes
+
+
+@pytest.mark.parametrize("words, says", [
+    (["--dx", "1e-300"], "more than 2^32 particles"),
+    (["--dx", "1e-5", "--case", "lattice"], "more than 2^32 particles"),
+    (["--dx", "0.1,1e-4", "--outside", "drop"], "more than 2^32 particles"),
+    (["--dx", str(TOO_FINE), "--case", "lattice"], "of memory"),
+])
+def test_a_dry_run_refuses_what_the_run_refuses_and_neither_leaves_a_trace(pairsum, tmp_path, words, says):
+    for more in ([], ["--dry-run"], ["--results", "a/b/c"], ["--out", "d/e/rows.jsonl"]):
+        done = pairsum("run", *SMALL[2:], *words, *more)
+        assert refused(done, says) and done.stdout == ""
+        assert not list(tmp_path.iterdir()), more
+
+
 @pytest.mark.parametrize("words, says", [
     (["--M", "1"], ["M must be"]),
     (["--backend", "nope"], ["symmetric_omp"]),
@@ -101,6 +121,14 @@ def test_unwritable_folder(pairsum, tmp_path):
     assert refused(pairsum("run", *SMALL, "--out", tmp_path / "file" / "rows.jsonl"), "file")
     assert refused(pairsum("run", *SMALL, "--results", "/proc/nope"), "/proc/nope")
     assert (tmp_path / "file").read_text() == "no folder"
+
+
+def test_what_is_no_regular_file_is_not_written_and_not_waited_for(pairsum, tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    assert refused(pairsum("run", *SMALL, "--out", "pipe"), "pipe: is no regular file")
+    assert refused(pairsum("tune", *SMALL[:6], "--save", "pipe"), "cannot write pipe: it is no regular file")
+    assert refused(pairsum("run", *SMALL, "--out", "/dev/null"), "/dev/null: is no regular file")
+    assert [path.name for path in tmp_path.iterdir()] == ["pipe"]
 
 
 def test_run_leaves_foreign_files_alone(pairsum, rows):
@@ -157,6 +185,24 @@ def test_bench_refuses(pairsum):
     assert refused(pairsum("--block", "nope", program="pairsum_bench"), "slab:N")
 
 
+@pytest.mark.parametrize("words, says", [
+    (["--M", "2", "--M", "3"], ["--M is given 2 times, should be once; a list has commas: --M 2,3 (see pairsum_bench --help)"]),
+    (["--dx", "0.1", "--dx", "0.2"], ["--dx is given 2 times, should be once (see pairsum_bench --help)"]),
+    (["--binding", "nope"], ["nope", "cores_first"]),
+    (["--benchmark_min_time=1e400"], ["--benchmark_min_time must be positive and finite"]),
+    (["--benchmark_min_time=0"], ["--benchmark_min_time must be positive and finite"]),
+    (["--benchmark_min_time=soon"], ["--benchmark_min_time", "soon"]),
+    (["--benchmark_repetitions=-1"], ["--benchmark_repetitions must be at least 1", "is -1"]),
+    (["--benchmark_repetitions=99999999999"], ["--benchmark_repetitions must be", "at most 1000000, is 99999999999"]),
+    (["--benchmark_format=xml"], ["--benchmark_format", "xml", "json"]),
+    (["--benchmark_out_format=xml"], ["--benchmark_out_format", "xml", "json"]),
+    (["--benchmark_out=/proc/nope"], ["cannot write /proc/nope"]),
+], ids=lambda w: " ".join(w)[:40])
+def test_bench_refuses_what_google_benchmark_takes_for_something_else(pairsum, words, says):
+    done = pairsum(*words, program="pairsum_bench")
+    assert refused(done, *says) and done.stdout == ""
+
+
 @pytest.mark.parametrize("expression, says", [("no_such_backend", "Failed to match any benchmarks"), ("naive(", "Could not compile benchmark re")])
 def test_bench_refuses_a_filter_that_matches_nothing_or_is_none(pairsum, expression, says):
     done = pairsum("--dx", "0.1", "--M", "3", "--threads", "1", f"--benchmark_filter={expression}", program="pairsum_bench")
@@ -187,6 +233,20 @@ def test_a_plan_from_another_editor_is_taken(pairsum, tmp_path, content):
 def test_a_plan_that_cannot_be_read_is_refused_where_it_is_wrong(pairsum, tmp_path, content, says):
     (tmp_path / "plan.json").write_bytes(content)
     assert refused(pairsum("run", "plan.json", "--show-plan"), *says)
+
+
+@pytest.mark.parametrize("change, says", [
+    ({"study": 3}, 'the plan\'s "study" should be a text, is 3'),
+    ({"parts": [{"name": "a", "colour": 3}]}, 'the plan\'s key "colour" is not known'),
+    ({"parts": [{"name": "a", "dx": -1}]}, "dx must be a positive"),
+    ({"parts": [{"name": "a", "backend": "nope"}]}, 'unknown backend "nope"'),
+    ({"parts": [{"name": "a", "threads": "all", "M": 40}]}, "M must be between 2 and 10"),
+])
+def test_what_a_plan_means_is_refused_with_its_name(pairsum, tmp_path, change, says):
+    (tmp_path / "plan.json").write_text(json.dumps({**json.loads(PLAN_TEXT), **change}))
+    for more in ([], ["--dry-run"]):
+        done = pairsum("run", "plan.json", *more)
+        assert refused(done, "pairsum: plan.json: " + says)
 
 
 def test_huge_files_are_not_read_to_their_end(pairsum, tmp_path):

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import resource
 import subprocess
 
@@ -46,11 +47,23 @@ def test_what_pins_the_first_thread_hides_no_core(pairsum, tmp_path, monkeypatch
 @two_cores
 def test_rows_say_who_pins_threads(pairsum, tmp_path, monkeypatch):
     said = []
-    for bind in ("false", "true"):
-        monkeypatch.setenv("OMP_PROC_BIND", bind)
-        assert pairsum("run", *EVERY, "--binding", "none", "--out", f"{bind}.jsonl").returncode == 0
-        said.append(environment(tmp_path / f"{bind}.jsonl")["binding"])
-    assert said == ["none", "none: left to OMP_PROC_BIND"]
+    for name, value in (("OMP_PROC_BIND", "false"), ("OMP_PROC_BIND", "true"), ("GOMP_CPU_AFFINITY", "0")):
+        monkeypatch.setenv(name, value)
+        assert pairsum("run", *EVERY, "--binding", "none", "--out", f"{name}={value}.jsonl").returncode == 0
+        said.append(environment(tmp_path / f"{name}={value}.jsonl")["binding"])
+        monkeypatch.delenv(name)
+    assert said == ["none", "none: left to OMP_PROC_BIND", "none: left to GOMP_CPU_AFFINITY"]
+
+
+@two_cores
+@pytest.mark.parametrize("name, value", [("OMP_PROC_BIND", "false"), ("GOMP_CPU_AFFINITY", "0")])
+def test_bench_pins_threads_as_run_does_and_says_so(pairsum, monkeypatch, name, value):
+    monkeypatch.setenv(name, value)
+    words = [*TWO, "--benchmark_filter=^naive_omp", "--benchmark_min_time=0.01", "--benchmark_format=json"]
+    said = json.loads(pairsum(*words, program="pairsum_bench").stdout)["context"]["binding"]
+    assert sorted(map(int, said.removeprefix("cores_first ").split(","))) == sorted(os.sched_getaffinity(0))
+    said = json.loads(pairsum(*words, "--binding", "none", program="pairsum_bench").stdout)["context"]["binding"]
+    assert said == ("none" if name == "OMP_PROC_BIND" else "none: left to GOMP_CPU_AFFINITY")
 
 
 @two_cores
@@ -103,6 +116,27 @@ def test_threads_that_openmp_does_not_give_are_an_error(pairsum, monkeypatch, pr
     assert "OpenMP gave 1 of 2 threads" in done.stderr and name in done.stderr
 
 
+LIMITED_TO_1_GIB = """
+group=/sys/fs/cgroup/memory
+[[ -d $group ]] || group=/sys/fs/cgroup
+mount -t tmpfs none "$group" || exit 77
+echo 1073741824 | tee "$group/memory.max" >"$group/memory.limit_in_bytes"
+exec "$@"
+"""
+
+
+@pytest.mark.skipif(os.getuid() != 0, reason="mounts, which only root may")
+@pytest.mark.parametrize("words", [["run", "--steps", "1"], ["run", "--dry-run"], ["verify", "--dim", "3"], ["tune"]], ids=" ".join)
+def test_what_takes_more_memory_than_the_job_has_is_refused(tmp_path, words):
+    start = {"cwd": tmp_path, "text": True, "capture_output": True, "timeout": 300}
+    words = [BIN / "pairsum", *words, "--dx", "0.004", "--M", "6", "--threads", "1", "--backend", "naive"]
+    done = subprocess.run(["unshare", "-m", "bash", "-c", LIMITED_TO_1_GIB, "-", *words], **start)
+    if done.returncode == 77 or "unshare" in done.stderr:
+        pytest.skip("no mount of one's own here")
+    assert refused(done, "dam_break with dx = 0.004 would take about 2 GiB of memory, this machine has 1 GiB for this job; a larger dx takes less")
+    assert not list(tmp_path.iterdir())
+
+
 @two_cores
 @pytest.mark.skipif(os.getuid() != 0, reason="becomes a user of its own, who has no other processes")
 @pytest.mark.parametrize("program, words", LIMITED)
@@ -146,7 +180,7 @@ def test_particles_that_may_leave_are_counted_wherever_times_stand(pairsum, tmp_
     assert "naive_omp lost 216 of 216 fluid particles" in done.stdout
     line = next(line for line in done.stdout.splitlines() if line.startswith("naive_omp ") and "lost" not in line and "(" not in line)
     assert line.split()[-1] == "-", "no time per pair: the steps have different pairs"
-    assert pairsum("report", "rows.jsonl", "--out", "report").returncode == 0
+    assert pairsum("report", "--tables", "rows.jsonl", "--out", "report").returncode == 0
     assert "naive_omp M=5 threads=1 (216 of 216 fluid particles)" in (tmp_path / "report" / "tables.txt").read_text()
 
 
@@ -157,4 +191,16 @@ def test_a_state_that_is_no_longer_finite_is_named(pairsum, dt, step):
     assert done.returncode == 1
     assert f"gets no time: step {step}: " in done.stdout and " of particle " in done.stdout
     assert "is not finite" in done.stdout and "dt is too large" in done.stdout
+    assert "nan" not in done.stdout and "FAILED its verification" not in done.stdout
+
+
+@pytest.mark.parametrize("dim", [1, 2])
+@pytest.mark.parametrize("dt", ["0.01", "1e308"])
+def test_states_of_fewer_dimensions_are_named_too(pairsum, dim, dt):
+    if dim not in json.loads(pairsum("list", "--json").stdout)["dims"]:
+        pytest.skip(f"{dim}D is not built")
+    done = pairsum("run", "--case", "periodic_lattice", "--dim", dim, "--dx", "0.02", "--state", "perturbed", "--dt", dt, "--steps", 50, "--M", 4,
+                   "--threads", 1, "--rounds", 1, "--backend", "naive")
+    assert done.returncode == 1
+    assert re.search(r"gets no time: step \d+: .* of particle \d+.* is not finite.*: dt is too large", done.stdout), done.stdout
     assert "nan" not in done.stdout and "FAILED its verification" not in done.stdout

@@ -244,7 +244,12 @@ def test_bench_speaks_google_benchmark(pairsum):
     done = pairsum("--dx", "0.08", "--M", "3", "--threads", "1,2", "--oversubscribe", "--benchmark_filter=symmetric|smoothing|hashing/M:6|counting_sort/bits:12",
                    "--benchmark_min_time=0.01", "--benchmark_format=json", program="pairsum_bench")
     assert done.returncode == 0, done.stderr
-    names = [b["name"] for b in json.loads(done.stdout)["benchmarks"]]
+    made = json.loads(done.stdout)["benchmarks"]
+    names = [b["name"] for b in made]
+    for b in made:
+        if "/dam_break/" in b["name"]:
+            assert b["index_s"] > 0 and b["prepare_s"] >= 0 and b["pairs_interacting"] > 0
+            assert 1e3 * (b["index_s"] + b["prepare_s"]) < 100 * b["real_time"], "in seconds, the time in ms"
     assert "symmetric_omp/dam_break/M:3/threads:2/manual_time" in names
     assert "smoothing/wendland_c2" in names and "hashing/M:6" in names and "counting_sort/bits:12" in names
     assert sum("symmetric/" in n for n in names) == 1

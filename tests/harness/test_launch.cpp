@@ -104,6 +104,8 @@ TEST(shell_word, is_one_word_and_one_line) {
   EXPECT_EQ(shell_word("a/b.jsonl"), "a/b.jsonl");
   EXPECT_EQ(shell_word("a b'c"), "'a b'\\''c'");
   EXPECT_EQ(shell_word("a\n\x1b[31m'"), "$'a\\012\\033[31m\\''");
+  EXPECT_EQ(shell_word("\x9b m\xc2\x9b"), "$'\\233 m\\302\\233'");
+  EXPECT_EQ(shell_word("\xc3\xa4 b"), "'\xc3\xa4 b'");
 }
 
 }  // namespace

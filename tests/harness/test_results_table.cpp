@@ -122,6 +122,20 @@ TEST(ranking, a_failed_point_has_no_rank) {
   EXPECT_TRUE(has(results_table(all), "wrong FAILED: rate 3 is wrong"));
 }
 
+TEST(ranking, a_point_that_lost_particles_has_no_rank) {
+  std::vector<sample> emptied = measured(made_point("emptied"), 0.0001);
+  for (sample& s : emptied) s.lost = 7;
+  const auto all = rank(joined({emptied, measured(made_point("a"), 0.002), measured(made_point("b"), 0.004)}));
+  EXPECT_EQ(all[0][0].what.backend, "a");
+  EXPECT_EQ(all[0][2].what.backend, "emptied");
+  const std::string text = results_table(all);
+  EXPECT_TRUE(has(line_with(text, "emptied  "), "no answer")) << text;
+  EXPECT_TRUE(has(text, "emptied lost 7 of 1000 fluid particles")) << text;
+  EXPECT_TRUE(has(text, "\na ran 2.000 [2.000, 2.000] times as fast as b\n")) << text;
+  const std::string none = results_table(rank(joined({emptied, emptied})));
+  EXPECT_FALSE(has(none, "fastest")) << none;
+}
+
 TEST(results_table, has_a_column_for_what_differs_and_none_for_what_is_constant) {
   point mixed = made_point("a");
   mixed.precision = "mixed";

@@ -13,7 +13,7 @@ from conftest import BUILD, OPTIONS, SOURCE, must
 
 SMALL = ["--dx", "0.08", "--M", "3", "--grid", "hashed_grid"]
 MORE = """
-foreach(name taken other bare)
+foreach(name taken other bare coloured wrong)
   add_library(${name} MODULE ${name}.cpp)
   target_link_libraries(${name} PRIVATE pairsum::pairsum)
   set_target_properties(${name} PROPERTIES PREFIX "")
@@ -31,7 +31,31 @@ extern const pairsum::plugin pairsum_plugin;
 const pairsum::plugin pairsum_plugin{"0.0.9 of another build", "other", nullptr};
 }
 """,
-    "bare": "int nothing() { return 0; }\n"}
+    "bare": "int nothing() { return 0; }\n",
+    "coloured": """#include <pairsum/plugin.hpp>
+#include <pairsum/sum/registry.hpp>
+static void add_all(pairsum::registry& r) {
+  pairsum::backend_entry b = pairsum::registry::instance().backends().front();
+  b.traits.name = "red";
+  b.traits.description = "\\x1b[31m red";
+  r.add(b);
+}
+PAIRSUM_PLUGIN(coloured, add_all)
+"""}
+
+
+def wrong_backend(project):
+    """The example's backend under another name, which leaves out one block of each pass."""
+    text = (project / "reverse_passes.cpp").read_text()
+    for old, new in (("    sum_block(", "    if (k > 0) sum_block("), ("reverse_passes", "wrong_passes"), ("reverse_blocks", "wrong_blocks")):
+        assert old in text
+        text = text.replace(old, new)
+    return text + """
+#include <pairsum/plugin.hpp>
+#include <pairsum/sum/registry.hpp>
+static void add_all(pairsum::registry& r) { r.add(pairsum::backends::wrong_passes()); }
+PAIRSUM_PLUGIN(wrong, add_all)
+"""
 
 
 @pytest.fixture(scope="session")
@@ -41,7 +65,7 @@ def folder(prefix, tmp_path_factory):
     shutil.copytree(SOURCE / "examples/plugin", project)
     with open(project / "CMakeLists.txt", "a") as lists:
         lists.write(MORE)
-    for name, text in REFUSED.items():
+    for name, text in {**REFUSED, "wrong": wrong_backend(project)}.items():
         (project / f"{name}.cpp").write_text(text)
     must("cmake", "-S", project, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}", *OPTIONS)
     must("cmake", "--build", build)
@@ -143,6 +167,15 @@ def test_bench(call, plugin):
     assert not made["benchmarks"][0].get("error_occurred")
 
 
+def test_bench_ends_with_1_where_rates_are_wrong(call, folder):
+    done = call("--plugin", folder / "wrong.so", *SMALL, "--threads", "1", "--benchmark_filter=^(wrong_passes|naive)/", "--benchmark_format=json",
+                "--benchmark_min_time=0.01", program="pairsum_bench")
+    assert done.returncode == 1, done.stdout + done.stderr
+    wrong = {b["name"].split("/")[0]: b for b in json.loads(done.stdout)["benchmarks"]}
+    assert wrong["wrong_passes"]["error_occurred"] and "rate" in wrong["wrong_passes"]["error_message"]
+    assert "error_occurred" not in wrong["naive"] and wrong["naive"]["real_time"] > 0
+
+
 def refused(done, *says):
     assert done.returncode == 2, done.stdout + done.stderr
     assert done.stdout == ""
@@ -156,6 +189,7 @@ def refused(done, *says):
     ("text", ["cannot open", "invalid ELF header"]),
     ("bare", ["no plug-in", "PAIRSUM_PLUGIN"]),
     ("other", ['of build "0.0.9 of another build"', 'this program of "0.1', "rebuild the plug-in"]),
+    ("coloured", ["a name or description in it has control characters"]),
     ("taken", ["there is a backend naive already"])])
 @pytest.mark.parametrize("program, words", [("pairsum", ["list"]), ("pairsum_bench", [])])
 def test_refusals(call, folder, program, words, name, says):
@@ -167,5 +201,6 @@ def test_other_refusals(call, plugin, folder):
     refused(call("list", "--plugin", plugin, "--plugin", folder / "copy.so"), "copy.so", "there is a plug-in example already")
     refused(call("list", "--plugin", ""), "--plugin")
     refused(call("list", "--plugin", "a:b.so"), "a:b.so", "colon")
+    refused(call("list", "--plugin", "a\nb.so"), r"a\nb.so", "control characters")
     refused(call("list", PAIRSUM_PLUGINS=folder / "absent.so"), "absent.so")
     refused(call("run", "compilers", "--plugin", plugin, "--program", "/bin/true"), "--plugin", "compares builds")

@@ -72,11 +72,13 @@ def test_backends_are_compared_with_their_best_granularity(report):
 def test_caveats_say_what_weakens_the_numbers(report):
     r = report([(made.point("naive_omp", 6, 4), 1.0, {"lost": 3, "threads_worked": 2})], rounds=5)
     for text in ("more threads than cores: naive_omp M=6 threads=4", "particles left Omega, and later steps summed the others alone: naive_omp M=6 threads=4 (6 of ",
-                 "fewer threads worked in a step than were asked for: naive_omp", "fewer than 6 rounds, so no interval of the median",
+                 "fewer threads worked in a step than were asked for: naive_omp M=6 threads=4 (10 of 10 steps)", "fewer than 6 rounds, so no interval of the median",
                  "no speedup over 1 thread, which was not measured: naive_omp M=6 threads=4"):
         assert any(c.startswith(text) for c in r.caveats), text
     assert np.isnan(r.points["sum_s_low"][0]) and r.points["sum_s"][0] == pytest.approx(1.0)
     assert np.isnan(r.points["ns_per_pair"][0]) and r.points["lost"][0] == 6, "3 in each of 2 steps"
+    some = report([(made.point("naive_omp", 6, 4), 1.0, lambda k: {"threads_worked": 2 if k == 3 else 4}), (made.point("naive_omp", 6, 2), 1.0)])
+    assert "fewer threads worked in a step than were asked for: naive_omp M=6 threads=4 (2 of 12 steps)" in some.caveats
     loose = report([(made.point("naive"), 1.0)], before=[made.environment(dirty=True, binding="none: EPERM")])
     assert loose.caveats[:2] == ["built from a tree with uncommitted changes", "threads were not pinned (none: EPERM)"]
     limits = {"none": 0, "4 GiB of memory": 0, "2.5 processors, 4 GiB of memory": 1}

@@ -59,6 +59,20 @@ def test_a_slower_backend_is_found_and_no_other_accused(measure):
     assert h.steps["newest"].all() and (h.steps["rounds"] == 0).all()
 
 
+def test_a_copy_of_a_revisions_rows_changes_nothing(measure, tmp_path):
+    files = [measure("aaaa111", 1), measure("bbbb222", 2, {"symmetric_omp": 1.1}, slow=1.4)]
+    wanted = load_history(files)
+    for file in files:
+        lines = file.read_text().splitlines(keepends=True)
+        for name, kept in (("whole", lines), ("half", lines[:len(lines) // 2])):
+            copy = tmp_path / name / file.name
+            copy.parent.mkdir(exist_ok=True)
+            copy.write_text("".join(kept))
+            found = load_history([*files, copy])
+            pd.testing.assert_frame_equal(found.steps, wanted.steps)
+            assert found.revisions["git"].to_list() == ["aaaa111", "bbbb222"] and len(found.slower) == 1
+
+
 def test_without_paces_a_slow_machine_is_taken_for_a_slow_revision(measure):
     """The test above must be able to fail: its finding hangs on the paces."""
     h = load_history([measure("aaaa111", 1, paces=False, rounds=30), measure("bbbb222", 2, slow=1.4, rounds=30)])

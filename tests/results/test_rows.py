@@ -88,6 +88,30 @@ def test_a_wrong_file_is_refused(tmp_path, text, says):
     assert says in str(caught.value)
 
 
+@pytest.mark.parametrize("before, after, key", [
+    ('"part": "all"', '"part": "all", "part": "all"', "part"),
+    ('"part":', '"part" : "all", "part":', "part"),
+    ('"part":', '"part":":\\"", "part":', "part"),
+    ('"total_s":', '"sum_s":1,"total_s":', "sum_s"),
+    ('"point": {', '"po\\u0069nt": {}, "point": {', "point"),
+])
+@pytest.mark.parametrize("separators", [None, (",", ":")], ids=["spaced", "compact"])
+def test_a_key_that_is_there_twice_is_refused(tmp_path, before, after, key, separators):
+    lines = [json.dumps(row) for row in changed("round")]
+    lines[3] = lines[3].replace(before, after, 1)
+    assert lines != [json.dumps(row) for row in changed("round")]
+    path = tmp_path / "rows.jsonl"
+    path.write_text("\n".join(lines if separators is None else [line.replace(", ", ",").replace(": ", ":") for line in lines]) + "\n")
+    with pytest.raises(pr.ResultsError) as caught:
+        pr.load([path])
+    assert str(caught.value) == f'{path}:4: key "{key}" is there twice in its object'
+
+
+def test_colons_and_quotes_in_texts_are_no_keys(tmp_path):
+    path = made.write(tmp_path / "rows.jsonl", changed("environment", flags='":"a" :":', host=':'))
+    assert pr.load([path]).points is not None
+
+
 def test_files_of_other_editors(tmp_path):
     path = made.write(tmp_path / "rows.jsonl", made.study(made.talk()))
     text, wanted = path.read_text(), pr.load([path]).points

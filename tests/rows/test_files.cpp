@@ -1,11 +1,15 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "harness/rows/reader.hpp"
+#include "harness/rows/whole_file.hpp"
 #include "harness/rows/writer.hpp"
 #include "tests/rows/scratch.hpp"
 #include "tests/rows/write_sample.hpp"
@@ -187,6 +191,36 @@ TEST_F(rows_files, a_killed_writer_leaves_whole_rows) {
   EXPECT_GT(read_rows(path).samples.size(), 2u);
 }
 
+TEST_F(rows_files, a_text_is_written_whole_or_not_at_all_and_no_other_file_is_left) {
+  const auto path = put("old.json", "old");
+  const auto files = [&] { return std::distance(std::filesystem::directory_iterator(path.parent_path()), {}); };
+  if (const int file = ::open(path.parent_path().c_str(), O_TMPFILE | O_WRONLY); file < 0)
+    GTEST_SKIP() << "this file system has no files without names";
+  else
+    ::close(file);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {  // which is killed in the midst of the text
+    const rlimit most{1000, 1000}, no_core{0, 0};
+    ::setrlimit(RLIMIT_FSIZE, &most);
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    ::signal(SIGXFSZ, SIG_DFL);
+    write_whole_file(std::string(5000, 'x'), path);
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ);
+  EXPECT_EQ(get(path), "old");
+  EXPECT_EQ(files(), 1);
+  write_whole_file("new", path);
+  EXPECT_EQ(get(path), "new");
+  write_whole_file("other", file("a/folder/other.json"));
+  EXPECT_EQ(get(file("a/folder/other.json")), "other");
+  EXPECT_CONTAINS(message_of([&] { write_whole_file("x", file("a")); }), "cannot write " + file("a").string());
+  EXPECT_EQ(files(), 2);
+}
+
 TEST_F(rows_files, wrong_rows_name_file_line_and_key) {
   const auto path = write_example();
   nlohmann::json bad = nlohmann::json::parse(format_row(example::measured()));
@@ -201,6 +235,15 @@ TEST_F(rows_files, wrong_rows_name_file_line_and_key) {
   huge.replace(huge.find("0.00594"), 7, "1e99999");
   const auto range = put("range.jsonl", get(path) + huge + "\n" + get(path));
   EXPECT_CONTAINS(message_of([&] { read_rows(range); }), ":6: it holds a number out of range");
+}
+
+TEST_F(rows_files, a_key_that_is_there_twice_is_refused) {
+  std::string twice = format_row(example::measured());
+  twice.replace(twice.find("\"sum_s\":"), 8, "\"sum_s\":1,\"sum_s\":");
+  const auto path = put("twice.jsonl", get(write_example()) + twice + "\n" + format_row(example::measured()) + "\n");
+  EXPECT_EQ(message_of([&] { read_rows(path); }), path.string() + ":6: key \"sum_s\" is there twice in its object");
+  const auto last = put("last.jsonl", get(write_example("other.jsonl")) + twice + "\n");
+  EXPECT_CONTAINS(message_of([&] { read_rows(last, cut_line::drop); }), ":6: key \"sum_s\"") << "it is no cut line";
 }
 
 TEST_F(rows_files, a_sample_needs_its_environment_row_before_it) {

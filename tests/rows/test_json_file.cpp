@@ -36,6 +36,16 @@ TEST(json_file, refuses_a_key_that_is_there_twice) {
   EXPECT_EQ(parse_json(R"([{"a": 1}, {"a": 1}, {"b": {"a": 1}, "a": 1}])", "f.json").size(), 3u);
 }
 
+TEST(json_file, finds_a_key_that_is_there_twice_in_what_was_parsed) {
+  const auto doubled = [](const std::string& text) { return doubled_key(text, nlohmann::json::parse(text)); };
+  EXPECT_EQ(doubled(R"({"a":1,"b":{"a":2},"a":3})"), R"(key "a" is there twice in its object)");
+  EXPECT_EQ(doubled(R"({"b":[{"a" :1,"a" :2}]})"), R"(key "a" is there twice in its object)");
+  EXPECT_EQ(doubled(R"({"\"":":","\"":1})"), R"(key "\"" is there twice in its object)");
+  for (const char* fine :
+       {R"([{"a":1},{"a":1},{"b":{"a":1},"a":1}])", R"({"a":":\":","b":"\"\":"})", R"(":")", "[]", "1"})
+    EXPECT_EQ(doubled(fine), std::nullopt) << fine;
+}
+
 TEST(json_file, refuses_what_no_number_holds) {
   EXPECT_EQ(refusal("{\"a\":\n1e400}"), "f.json:2:6: a number is out of range");
   EXPECT_EQ(parse_json("[1e308, 18446744073709551615]", "f.json")[1], 18446744073709551615u);

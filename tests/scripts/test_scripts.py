@@ -73,3 +73,36 @@ def test_continuous_integration_stops_at_a_failing_study(sandbox):
     done = sandbox.run(".ci/run", "--no-install", STUB_FAILS="verify", STUB_STATUS="1")
     assert done.returncode == 1
     assert sandbox.calls("ctest") == []
+
+
+GROUPS = {
+    "none": ({"proc/self/cgroup": "0::/\n"}, None, None),
+    "version 2, a group above": ({
+        "proc/self/cgroup": "0::/batch/job\n", "sys/fs/cgroup/batch/job/cpu.max": "max 100000\n", "sys/fs/cgroup/batch/cpu.max": "150000 100000\n",
+        "sys/fs/cgroup/batch/job/memory.max": "max\n", "sys/fs/cgroup/batch/job/memory.current": "1048576\n",
+        "sys/fs/cgroup/batch/memory.max": "104857600\n", "sys/fs/cgroup/batch/memory.current": "4194304\n"}, 1, 96),
+    "version 1, beside 2": ({
+        "proc/self/cgroup": "4:memory:/job\n2:cpu,cpuacct:/job/step\n0::/\n", "sys/fs/cgroup/unified/cgroup.procs": "",
+        "sys/fs/cgroup/cpu,cpuacct/job/cpu.cfs_quota_us": "50000\n", "sys/fs/cgroup/cpu,cpuacct/job/cpu.cfs_period_us": "100000\n",
+        "sys/fs/cgroup/cpu,cpuacct/cpu.cfs_quota_us": "-1\n", "sys/fs/cgroup/cpu,cpuacct/cpu.cfs_period_us": "100000\n",
+        "sys/fs/cgroup/memory/job/memory.limit_in_bytes": "52428800\n", "sys/fs/cgroup/memory/job/memory.usage_in_bytes": "0\n",
+        "sys/fs/cgroup/memory/memory.limit_in_bytes": "9223372036854771712\n", "sys/fs/cgroup/memory/memory.usage_in_bytes": "0\n"}, 1, 50),
+    "in a container, which sees its own group": ({
+        "proc/self/cgroup": "0::/docker/1a2b\n", "sys/fs/cgroup/cpu.max": "100000 100000\n", "sys/fs/cgroup/memory.max": "20971520\n",
+        "sys/fs/cgroup/memory.current": "41943040\n"}, 1, 0),
+}
+
+
+@pytest.mark.parametrize("which", GROUPS)
+def test_cores_and_memory_are_those_of_the_job(tmp_path, which):
+    files, cores, memory = GROUPS[which]
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    words = 'set -euo pipefail; script=test; system_root=$1; . "$2"; cores; free_memory_mb; jobs_for 40'
+    done = subprocess.run(["bash", "-c", words, "-", tmp_path, ROOT / "harness/scripts/steps.sh"], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    found = list(map(int, done.stdout.split()))
+    machine = len(os.sched_getaffinity(0))
+    assert found[0] == (cores or machine) and found[2] == (1 if cores == 1 else min(machine, max(1, found[1] // 40)))
+    assert found[1] == memory if memory is not None else found[1] > 100
