@@ -39,6 +39,13 @@ def test_many_chunks_are_read_in_their_order(tmp_path):
     same(gadget(tmp_path / "a.hdf5", p, packed=True), tmp_path, p)
 
 
+def test_behind_a_user_block(tmp_path, particles):
+    with h5py.File(gadget(tmp_path / "a.hdf5", particles)) as plain, h5py.File(tmp_path / "b.hdf5", "w", userblock_size=2048) as file:
+        for name in plain:
+            plain.copy(name, file)
+    same(tmp_path / "b.hdf5", tmp_path, particles)
+
+
 @pytest.mark.parametrize("where", ["HydroScheme", "Parameters"])
 def test_the_kernel_gamma_is_the_support(tmp_path, particles, where):
     path = gadget(tmp_path / "a.hdf5", particles, plural=True)
