@@ -113,11 +113,13 @@ void choose_kinds(set_in_making& s, const std::vector<std::optional<particle_kin
 void check_numbers(set_in_making& s) {
   for (one_file& f : s.files) {
     file_content& c = f.content;
-    const auto check = [&](std::vector<double>& column, const char* what, bool must_be_positive) {
+    const auto check = [&](std::vector<double>& column, const char* what, bool must_be_positive,
+                           bool of_fluid_alone = false) {
       if (must_be_positive && std::ranges::all_of(column, [](double a) { return a == 0; }))
         std::vector<double>().swap(column);
       for (std::size_t i = 0; i < column.size(); ++i)
-        if (!std::isfinite(column[i]) || (must_be_positive && !(column[i] > 0)))
+        if ((!std::isfinite(column[i]) || (must_be_positive && !(column[i] > 0))) &&
+            !(of_fluid_alone && c.kind[i] != particle_kind::fluid))
           throw error(row_text(f, i) + " has " + what + " = " + number_text(column[i]) + ", should be " +
                       (must_be_positive ? "positive and finite" : "finite"));
     };
@@ -128,7 +130,7 @@ void check_numbers(set_in_making& s) {
     }
     check(c.rho, "density", true);
     check(c.m, "mass", true);
-    if (!s.told.H && !s.told.h) check(c.h, "h", true);
+    if (!s.told.H && !s.told.h) check(c.h, "h", true, true);
   }
 }
 

@@ -44,6 +44,14 @@ axes periodic_of(const set_in_making& s, const std::string& text) {
   return on;
 }
 
+/// Moved by whole edges into [low, high), as the library does it.
+double wrapped(double x, double low, double high) {
+  box<1, double> line;
+  line.low[0] = low;
+  line.high[0] = high;
+  return line.wrapped(0, x);
+}
+
 /// What the box is, before periodic axes: given, read, or empty.
 void read_box(set_in_making& s, std::vector<double>& low, std::vector<double>& high) {
   const std::vector<double>& told = s.told.box;
@@ -105,14 +113,7 @@ void choose_domain(set_in_making& s) {
     if (!(low[d] < high[d]) || !std::isfinite(high[d] - low[d]))
       throw error(s.named() + ": the box goes from " + number_text(low[d]) + " to " + number_text(high[d]) + " along " +
                   std::string(1, "xyz"[d]) + ", should go up");
-    if (periodic.on[d]) {
-      const box<1, double> line{vec<1, double>(low[d]), vec<1, double>(high[d]), true};
-      for (double& x : p.x[d])
-        if (!(x >= low[d] && x < high[d])) {
-          x = line.wrapped(0, x);
-          ++s.made.wrapped;
-        }
-    } else if (least < low[d] || most > high[d]) {
+    if (!periodic.on[d] && (least < low[d] || most > high[d])) {
       if (!s.told.box.empty())
         throw error(s.named() + ": particles lie from " + number_text(least) + " to " + number_text(most) + " along " +
                     std::string(1, "xyz"[d]) + ", outside of --box, which goes from " + number_text(low[d]) + " to " +
@@ -122,19 +123,28 @@ void choose_domain(set_in_making& s) {
       widened += (widened.empty() ? "" : ", ") + std::string(1, "xyz"[d]);
     }
   }
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    bool moved = false;
+    for (std::size_t d = 0; d < s.axes.size(); ++d)
+      if (double& x = p.x[d][i]; periodic.on[d] && !(x >= low[d] && x < high[d])) {
+        x = wrapped(x, low[d], high[d]);
+        moved = true;
+      }
+    s.made.wrapped += moved;
+  }
   if (!boxed) s.tell("box", box_text(low, high), origin::derived, "where particles are, and H more at each side");
   if (!widened.empty())
     s.tell("box", box_text(low, high), origin::derived, "widened along " + widened + " to hold all particles");
-  s.tell("periodic", periodic.text(),
-         s.told.periodic ? origin::given
-         : said && boxed ? origin::read
-                         : origin::assumed,
-         s.told.periodic ? "--periodic"
-         : said && boxed ? "the file"
-                         : "nothing says so; --periodic does");
+  const bool by_habit = std::ranges::any_of(s.files, [](const one_file& f) { return f.content.periodic_by_habit; });
+  if (s.told.periodic)
+    s.tell("periodic", periodic.text(), origin::given, "--periodic");
+  else if (said && boxed && !by_habit)
+    s.tell("periodic", periodic.text(), origin::read, "the file");
+  else
+    s.tell("periodic", periodic.text(), origin::assumed, "no file says it; --periodic does");
   if (s.made.wrapped > 0)
     s.tell("wrapped", std::to_string(s.made.wrapped), origin::derived,
-           "coordinates outside of the periodic box, moved into it");
+           "particles outside of the periodic box, moved into it");
   made.periodic = periodic;
 }
 

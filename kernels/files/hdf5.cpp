@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 
@@ -256,6 +257,7 @@ void dialect_reader::box(const std::string& group, std::size_t axes_of_file) {
   if (periodic)
     for (std::size_t d = 0; d < 3; ++d) on.on[d] = (*periodic)[std::min(d, periodic->size() - 1)] == 1;
   content.periodic = on;
+  content.periodic_by_habit = !periodic;
 }
 
 void dialect_reader::header(std::vector<particle_group>& groups) {
@@ -289,7 +291,7 @@ void dialect_reader::header(std::vector<particle_group>& groups) {
   const auto support = [&](double s, origin how, const std::string& from) {
     if (!(s > 0)) throw error(first_.path() + ": " + from + " is " + number_text(s) + ", should be positive");
     content.support = s;
-    content.facts.push_back({"support", number_text(s) + " h", how, from});
+    if (!told_.H && !told_.support) content.facts.push_back({"support", number_text(s) + " h", how, from});
   };
   if (const auto H = one(names_.H)) {
     content.h_of_all = H;
@@ -439,7 +441,10 @@ bool recognises(std::span<const std::byte> head, std::string_view) {
 file_content read(const std::string& path, const hints& told) {
   struct stat about {};
   const auto bytes = stat(path.c_str(), &about) == 0 ? static_cast<std::uint64_t>(about.st_size) : 0;
-  return in_child(path, seconds_for(bytes), [&] { return read_here(path, told); });
+  return in_child(path, seconds_for(bytes), [&] {
+    setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);  // some file systems have no locks, and this child writes nothing
+    return read_here(path, told);
+  });
 }
 
 }  // namespace

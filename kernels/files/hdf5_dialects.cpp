@@ -40,7 +40,7 @@ constexpr hdf5_dialect h5part{
     .name = "h5part", .groups = "Step#*", .meant = groups_meant::last,
     .x = "x,y,z|coords_0,coords_1,coords_2", .v = "vx,vy,vz|u,v,w", .rho = "rho|density", .m = "m|mass",
     .h = "h|hsml|smoothing_length", .kind = "kind",
-    .time = "@time|@TimeValue", .limits = "@box", .axes = "@boundaryType"};
+    .time = "@time|@TimeValue", .limits = "@box", .axes = "@boundaryType|@boundaryTypes"};
 
 constexpr hdf5_dialect sph_exa = [] {
   hdf5_dialect d = h5part;

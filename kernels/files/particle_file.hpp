@@ -47,7 +47,8 @@ struct file_content {
   std::optional<double> dx, h_of_all, m_of_all, m_of_boundary, rho0, B, gravity, support, time;  ///< of the header
   std::vector<double> box_low, box_high;  ///< m, an entry per axis; empty: not in the file
   std::optional<axes> periodic;
-  std::vector<fact> facts;  ///< what else a reader should be told
+  bool periodic_by_habit = false;  ///< no word of the file says so, but programs of its dialect do it
+  std::vector<fact> facts;         ///< what else a reader should be told
 };
 
 }  // namespace pairsum::files

@@ -82,6 +82,17 @@ def test_a_file_cut_short_is_one_line(path, tmp_path):
         assert read(cut).code == 2, size
 
 
+def test_a_changed_column_that_has_a_checksum_is_one_line(tmp_path, particles):
+    path = gadget(tmp_path / "a.hdf5", particles, packed=True)
+    with h5py.File(path) as file:
+        at = file["PartType0/Velocities"].id.get_chunk_info(1)
+    whole = bytearray(path.read_bytes())
+    whole[at.byte_offset + at.size // 2] ^= 1
+    path.write_bytes(whole)
+    result = read(path)
+    assert result.code == 2 and "PartType0/Velocities: cannot be read" in result.error
+
+
 @pytest.mark.parametrize("packed", [False, True])
 def test_no_changed_byte_crashes_or_hangs(tmp_path, particles, packed):
     """Changes lie in what is no column: there they may change what HDF5 does."""

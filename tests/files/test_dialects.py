@@ -39,6 +39,13 @@ def test_many_chunks_are_read_in_their_order(tmp_path):
     same(gadget(tmp_path / "a.hdf5", p, packed=True), tmp_path, p)
 
 
+def test_behind_a_user_block(tmp_path, particles):
+    with h5py.File(gadget(tmp_path / "a.hdf5", particles)) as plain, h5py.File(tmp_path / "b.hdf5", "w", userblock_size=2048) as file:
+        for name in plain:
+            plain.copy(name, file)
+    same(tmp_path / "b.hdf5", tmp_path, particles)
+
+
 @pytest.mark.parametrize("where", ["HydroScheme", "Parameters"])
 def test_the_kernel_gamma_is_the_support(tmp_path, particles, where):
     path = gadget(tmp_path / "a.hdf5", particles, plural=True)
@@ -64,10 +71,10 @@ def test_the_kernels_name_says_gamma(tmp_path, particles, function, gamma):
 
 def test_box_of_three_edges_and_axes_that_are_not_periodic(tmp_path, particles):
     path = gadget(tmp_path / "a.hdf5", particles, header={"BoxSize": [1.0, 2.0, 3.0]})
-    assert read(path).set["high"] == [1, 2, 3]
+    assert read(path).set["high"] == [1, 2, 3] and read(path).fact["periodic"]["how"] == "assumed"
     with h5py.File(path, "a") as file:
         file.create_group("RuntimePars").attrs["PeriodicBoundariesOn"] = np.array([0], "i4")
-    assert not read(path, support=1).set["periodic"]
+    assert not read(path, support=1).set["periodic"] and read(path, support=1).fact["periodic"]["how"] == "read"
     assert read(path, support=1, periodic="all").set["periodic"]
 
 
@@ -75,9 +82,9 @@ def test_coordinates_outside_of_a_periodic_box_are_wrapped(tmp_path, particles):
     particles.x[3] = [-0.25, 0.5, 1.5]
     path = gadget(tmp_path / "a.hdf5", particles)
     result = read(path, out=tmp_path / "out.hdf")
-    assert result.set["wrapped"] == 2
+    assert result.set["wrapped"] == 1
     assert columns(tmp_path / "out.hdf")["Coordinates"][3].tolist() == [0.75, 0.5, 0.5]
-    assert result.fact["wrapped"]["value"] == "2"
+    assert result.fact["wrapped"]["value"] == "1"
     widened = read(path, periodic="none")
     assert widened.set["low"] == [-0.25, 0, 0] and widened.set["high"] == [1, 1, 1.5]
     assert "widened along x, z" in widened.fact["box"]["from"]
@@ -244,6 +251,15 @@ def test_boundary_by_a_column(tmp_path, particles):
     order = np.concatenate([np.flatnonzero(np.arange(200) % 4 > 1), np.flatnonzero(np.arange(200) % 4 < 2)])
     same(path, tmp_path, particles, order, boundary_kind="Type=0,1")
     assert "no column Sort" in read(path, boundary_kind="Sort=1").error
+
+
+def test_h_is_that_of_the_fluid(tmp_path):
+    fluid, wall = Particles(100), Particles(50, 2)
+    wall.h[:] = np.append(np.zeros(49), 9)
+    path = pysph(tmp_path / "a.hdf5", {"fluid": fluid, "wall": wall})
+    assert read(path).set["H"] == 2 * fluid.h.max()
+    fluid.h[3] = 0
+    assert "particle 4 has h = 0" in read(pysph(tmp_path / "a.hdf5", {"fluid": fluid, "wall": wall})).error
 
 
 def test_varying_h(tmp_path, particles):

@@ -65,6 +65,7 @@ TEST(in_child, hands_over_every_member) {
   told.box_low = {1, 2};
   told.box_high = {3, 4};
   told.periodic = axes{{true, false, true}};
+  told.periodic_by_habit = true;
   told.facts = {{"what", "value", origin::derived, "from"}};
   const file_content got = in_two_s([&] { return told; });
   EXPECT_EQ(got.format + got.dialect, "fd");
@@ -83,6 +84,7 @@ TEST(in_child, hands_over_every_member) {
   EXPECT_EQ(got.box_low, told.box_low);
   EXPECT_EQ(got.box_high, told.box_high);
   EXPECT_EQ(got.periodic, told.periodic);
+  EXPECT_TRUE(got.periodic_by_habit);
   ASSERT_EQ(got.facts.size(), 1u);
   EXPECT_EQ(got.facts[0].what + got.facts[0].value + got.facts[0].from, "whatvaluefrom");
   EXPECT_EQ(got.facts[0].how, origin::derived);
