@@ -18,7 +18,7 @@ cmake --preset asan -S "$source" -B "$build" >"$build/configure.log" 2>&1 || {
   cat "$build/configure.log"
   exit 1
 }
-cmake --build "$build" --parallel 2 --target test_kernels test_rows fuzz_rows fuzz_plans fuzz_profiles fuzz_planted \
+cmake --build "$build" --parallel 2 --target test_kernels test_rows fuzz_rows fuzz_plans fuzz_profiles fuzz_csv fuzz_bi4 fuzz_planted \
   >"$build/build.log" 2>&1 || {
   grep -E 'error|FAILED' "$build/build.log" || cat "$build/build.log"
   exit 1
