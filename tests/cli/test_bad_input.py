@@ -86,6 +86,7 @@ def test_run_refuses(pairsum, tmp_path, words, says):
     (["--interaction", "nope"], ["count"]),
     (["--seed", "-1"], ["--seed", "whole number from 0"]),
     (["--dx", "1e-300"], ["more than 2^32 particles"]),
+    (["--case", "periodic_lattice", "--dim", "3", "--dx", "0.15", "--grid", "hashed_grid"], ["no hashed grid goes round", "compact_grid"]),
 ])
 def test_verify_refuses(pairsum, words, says):
     assert refused(pairsum("verify", *words), *says)
