@@ -56,7 +56,8 @@ run_request in_dimension(int dim, const run_request& asked, const verify_options
 }
 
 /// Of the M that nobody asked for, a periodic box has those whose torus closes where it does. Which these are depends
-/// on a backend's skin: returns the request in parts, of backends that take the same M.
+/// on a backend's skin: returns the request in parts, of backends that take the same M. Where none fits only grids
+/// without M are left.
 std::vector<run_request> parts_with_M_that_fit(const run_request& q, const initial_condition& c) {
   if (!c.periodic.any()) return {q};
   std::map<std::vector<int>, std::vector<std::string>> backends;
@@ -67,10 +68,15 @@ std::vector<run_request> parts_with_M_that_fit(const run_request& q, const initi
   }
   std::vector<run_request> parts;
   for (const auto& [M, those] : backends) {
-    parts.push_back(q);
-    parts.back().M = M;
-    parts.back().backends = those;
+    run_request part = q;
+    part.backends = those;
+    if (M.empty())
+      std::erase_if(part.grids, grid_takes_M);
+    else
+      part.M = M;
+    if (!part.grids.empty()) parts.push_back(part);
   }
+  if (parts.empty()) throw error("no hashed grid goes round the periodic box: take --grid dense_grid,compact_grid");
   return parts;
 }
 

@@ -9,6 +9,7 @@
 #include <pairsum/core/granularity.hpp>
 #include <pairsum/integrators/integrator.hpp>
 #include <pairsum/sum/check.hpp>
+#include <pairsum/sum/setup_of.hpp>
 #include "harness/environment/machine.hpp"
 #include "harness/measure/memory.hpp"
 #include "harness/measure/pass_times.hpp"
@@ -23,7 +24,7 @@
 namespace pairsum::harness {
 
 world_particles::world_particles(const run_request& r, const point& any) : made(initial_of(r, any.dx, any.state)) {
-  if (r.outside == "drop") dropped = drop_outside(made.initial.particles, initial.omega_low, initial.omega_high);
+  if (r.outside == "drop") dropped = drop_outside(made.initial.particles, setup_of(initial));
   for (const std::string& order : r.orders) orders[order] = memory_order(order, initial, r.seed);
 }
 

@@ -11,8 +11,8 @@ struct periodic_lattice {
 
   static initial_condition make(const case_parameters& c) {
     const double H = c.H != 0 ? c.H : 2 * c.dx;
-    if (!(4 * H <= 1))
-      throw error(std::string(name) + " is 1 m wide and periodic, for which H may be up to 0.25 m, is " +
+    if (!(3 * H <= 1))
+      throw error(std::string(name) + " is 1 m wide and periodic, for which H may be up to 1/3 m, is " +
                   number_text(H));
     initial_condition made = unit_lattice(name, c);
     made.periodic = axes::all(c.dim);

@@ -23,8 +23,9 @@ R safe_width(const box<D, R>& omega, R H) {
   return H * (1 + 8 * u + (omega.periodic.any() ? 24 : 12) * u * t_max);
 }
 
-/// The number of cells along each periodic axis: as many as are no narrower than is safe, a multiple of `multiple` (an
-/// even number), 0 where 4 do not fit. 0 along the others.
+/// The number of cells along each periodic axis: as many as are no narrower than is safe, 4 or more, and a multiple of
+/// `multiple` (an even number). For a multiple of 2 it is 3 where only these fit, and 0 where nothing does, and along
+/// the other axes.
 ///
 /// H alone is safe where coordinates are exact: H a power of two and the low face at 0. Then x/H has no rounding, and
 /// differences of H or more, also less an edge of whole H, are never rounded to less.
@@ -38,14 +39,14 @@ ivec<D> torus_cells(const box<D, R>& omega, R H, std::int64_t multiple) {
     if (!omega.periodic[d]) continue;
     const R edge = omega.edge(d), reaches = edge / H;
     const auto whole = static_cast<std::int64_t>(std::min(reaches, R(0x1p62)));
-    if (exact_inverse && omega.low[d] == 0 && reaches == static_cast<R>(whole) && whole % multiple == 0 &&
-        whole <= std::int64_t{1} << (std::numeric_limits<R>::digits - 1)) {
+    const bool exact = exact_inverse && omega.low[d] == 0 && reaches == static_cast<R>(whole);
+    if (exact && whole % multiple == 0 && whole <= std::int64_t{1} << (std::numeric_limits<R>::digits - 1)) {
       n[d] = whole;
     } else {
       n[d] = static_cast<std::int64_t>(std::min(edge / safe, R(0x1p62))) / multiple * multiple;
       if (n[d] > 0 && edge / static_cast<R>(n[d]) < safe) n[d] -= multiple;
     }
-    if (n[d] < 4) n[d] = 0;
+    if (n[d] < 4) n[d] = multiple == 2 && ((exact && whole == 3) || edge / 3 >= safe) ? 3 : 0;
   }
   return n;
 }

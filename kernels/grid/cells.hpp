@@ -37,9 +37,9 @@ struct cells {
   column<std::uint32_t> neighbours;  ///< cell of the neighbour at code n of fluid cell c: [c * 3^D + n]
   column<std::uint8_t> colour;       ///< parity of the fluid cell's coordinates, one bit per component
   column<ivec<D>> place;             ///< coordinates of the fluid cell, not negative; folded ones on a torus
-  ivec<D> period{};                  ///< cells of a grid that closes on itself, per component, even; 0: it does not
-  vec<D, double> low, per_metre;     ///< a cell's coordinates are floor((x - low) per_metre), in the working precision
-  std::uint64_t revision = 0;        ///< changes whenever cells or their neighbours change
+  ivec<D> period{};               ///< cells of a grid that closes on itself, per component, even or 3; 0: it does not
+  vec<D, double> low, per_metre;  ///< a cell's coordinates are floor((x - low) per_metre), in the working precision
+  std::uint64_t revision = 0;     ///< changes whenever cells or their neighbours change
   std::size_t fluid_cells = 0;
   std::size_t total = 0;  ///< cells of the grid, empty ones included where it has them
 

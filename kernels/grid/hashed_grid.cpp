@@ -30,13 +30,19 @@ ivec<D> hashed_grid<D, R>::cells_round(const box<D, R>& omega, R H, int M) {
   const auto fits = [&](int m) { return goes_round(omega, H, std::int64_t{1} << m); };
   if (fits(M)) return torus_cells(omega, H, std::int64_t{1} << M);
   check_periodic(omega, H);
+  if (!fits(2))
+    throw error(
+        "a hashed grid does not fit the periodic box of " + edges_text(omega, H) +
+        " support radii: 4 cells or more must fit along each periodic axis, each as wide as the support radius " +
+        "and what rounding takes; dense_grid and compact_grid take 3");
   int most = 2;
   while (most < M && fits(most + 1)) ++most;
-  throw error(
-      "a hashed grid with M = " + std::to_string(M) + " does not fit the periodic box of " + edges_text(omega, H) +
-      " support radii: " + std::to_string(1 << M) +
-      " cells or a multiple must fit along each axis, each as wide as the support radius and what rounding takes; " +
-      (most > 2 ? "M from 2 to " + std::to_string(most) + " fit" : "M = 2 fits") + ", or a grid that takes no M");
+  throw error("a hashed grid with M = " + std::to_string(M) + " does not fit the periodic box of " +
+              edges_text(omega, H) + " support radii: " + std::to_string(1 << M) +
+              " cells or a multiple must fit along each periodic axis, each as wide as the support radius and what "
+              "rounding takes; " +
+              (most > 2 ? "M from 2 to " + std::to_string(most) + " fit" : "M = 2 fits") +
+              ", or a grid that takes no M");
 }
 
 template <int D, class R>

@@ -43,17 +43,17 @@ bool goes_round(const box<D, R>& omega, R H, std::int64_t multiple) {
   return all;
 }
 
-/// Throws pairsum::error if fewer than 4 cells fit along a periodic axis; else returns how many, 0 along the others.
+/// Throws pairsum::error if fewer than 3 cells fit along a periodic axis; else returns how many, 0 along the others.
 template <int D, class R>
 ivec<D> check_periodic(const box<D, R>& omega, R H) {
   if (goes_round(omega, H, 2)) return torus_cells(omega, H, 2);
-  R quarter = H, fits = H;
+  R third = H, fits = H;
   for (int d = 0; d < D; ++d)
-    if (omega.periodic[d]) quarter = std::min(quarter, omega.edge(d) / 4);
-  for (R less = std::numeric_limits<R>::epsilon(); !goes_round(omega, fits, 2); less *= 2) fits = quarter * (1 - less);
+    if (omega.periodic[d]) third = std::min(third, omega.edge(d) / 3);
+  for (R less = std::numeric_limits<R>::epsilon(); !goes_round(omega, fits, 2); less *= 2) fits = third * (1 - less);
   throw error("the periodic box of " + edges_text(omega, H) +
-              " support radii is too small: 4 cells must fit along each " +
-              "axis, each as wide as the support radius and what rounding takes; one of " +
+              " support radii is too small: 3 cells must fit along each " +
+              "periodic axis, each as wide as the support radius and what rounding takes; one of " +
               number_text(static_cast<double>(fits)) + " m fits");
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 
 namespace pairsum::pattern {
@@ -25,6 +26,21 @@ constexpr unsigned axis_colours(std::int64_t period, std::int64_t spacing) {
   return static_cast<unsigned>(period < longer * (spacing + 1) ? period : spacing + 1);
 }
 
+/// The colour of a base block of the talk by its lowest cell, not negative: blocks are 2 cells wide. Where no period is
+/// odd these are the parities, bit d being that of component d.
+template <std::size_t D>
+constexpr unsigned block_colour(const std::array<std::int64_t, D>& base, const std::array<std::int64_t, D>& period) {
+  unsigned colour = 0;
+  for (std::size_t d = D; d-- > 0;) colour = colour * axis_colours(period[d], 2) + axis_colour(base[d], period[d], 2);
+  return colour;
+}
+template <std::size_t D>
+constexpr unsigned block_colours(const std::array<std::int64_t, D>& period) {
+  unsigned colours = 1;
+  for (const std::int64_t p : period) colours *= axis_colours(p, 2);
+  return colours;
+}
+
 namespace checks {
 /// Are equal colours never closer than the spacing, around the end too?
 constexpr bool apart(std::int64_t period, std::int64_t spacing) {
@@ -45,6 +61,9 @@ static_assert(apart_for_all());
 static_assert(axis_colours(0, 3) == 3 && axis_colours(6, 3) == 3 && axis_colours(8, 3) == 4 &&
               axis_colours(16, 3) == 4);
 static_assert(axis_colours(4, 3) == 4 && axis_colours(5, 3) == 5 && axis_colours(8, 2) == 2);
+static_assert(block_colours<3>({0, 4, 8}) == 8 && block_colour<3>({5, 2, 3}, {0, 4, 8}) == 0b101);
+static_assert(block_colours<3>({3, 3, 3}) == 27 && block_colours<2>({3, 8}) == 6 &&
+              block_colour<2>({2, 3}, {3, 8}) == 5);
 }  // namespace checks
 
 }  // namespace pairsum::pattern

@@ -7,7 +7,8 @@
 //       for j, k in {0,1}^d, k < j, j*k = 0:  sumF2(B+j, B+k)
 //
 // Race-free: a block touches its 2^d cells B + {0,1}^d alone. Base cells of a pass have equal parity o, so on a grid of
-// even side (2^M, the torus included) two blocks of a pass share no cell; passes are separated by barriers. For the
+// even side (2^M, the torus included) two blocks of a pass share no cell; passes are separated by barriers. Around an
+// axis of 3 cells each coordinate is a colour of its own (pattern/axis_colours.hpp): 3 passes in place of 2. For the
 // same reason the order in which a particle's rate is added to does not depend on the threads: the result is
 // bit-identical.
 //
@@ -34,7 +35,7 @@ class base_blocks final : public schedule<D, R> {
                                          .colours = {2, 4, 8}};
 
   void prepare(const P& p, const team& t) override { blocks_.build(p.cells(), t); }
-  unsigned colours(const P&) const override { return coloured_blocks<D>::colours; }
+  unsigned colours(const P&) const override { return blocks_.colours(); }
   std::size_t size(const P&, unsigned colour) const override { return blocks_[colour].size(); }
   void unit(const P& p, unsigned colour, std::size_t k, int thread) override {
     sum_block_of(p, blocks_[colour], k, p.to(thread));

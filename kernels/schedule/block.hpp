@@ -4,6 +4,7 @@
 
 #include <pairsum/core/places.hpp>
 #include <pairsum/core/team.hpp>
+#include <pairsum/pattern/axis_colours.hpp>
 #include <pairsum/sum/prefetch.hpp>
 #include <pairsum/sum/schedule.hpp>
 
@@ -29,9 +30,8 @@ inline constexpr auto earlier = make_earlier<D>();
 }  // namespace block_detail
 
 /// Every base block that holds fluid, once. Blocks are found from the cells with fluid, not by walking the grid, so
-/// empty cells cost nothing: each block is listed by the first of its cells that has fluid. `colour` is the parity o of
-/// B: blocks of a colour share no cell. Calls emit(colour, block) for the blocks of fluid cells [begin, end), in
-/// ascending order.
+/// empty cells cost nothing: each block is listed by the first of its cells that has fluid. Calls emit(parity o of B,
+/// block) for the blocks of fluid cells [begin, end), in ascending order.
 template <int D, class Emit>
 void each_block(const cells<D>& c, std::size_t begin, std::size_t end, Emit&& emit) {
   static_assert(D <= 3, "the neighbours of a cell are kept as bits of a 32-bit word");
@@ -57,6 +57,18 @@ ivec<D> base_of(const block<D>& members, const cells<D>& c) {
   ivec<D> base = c.place[members[o]];
   for (int d = 0; d < D; ++d) base[d] -= o >> d & 1;
   return base;
+}
+
+/// each_block() with colours (pattern::block_colour): blocks of a colour share no cell. They are the parities, unless
+/// an axis closes on itself after an odd number of cells.
+template <int D, class Emit>
+void each_coloured_block(const cells<D>& c, std::size_t begin, std::size_t end, Emit&& emit) {
+  if (pattern::block_colours(c.period) == pattern::block_cells<D>) return each_block(c, begin, end, emit);
+  each_block(c, begin, end, [&](unsigned, const block<D>& b) {
+    ivec<D> base = base_of<D>(b, c);
+    for (int d = 0; d < D; ++d) base[d] = c.period[d] > 0 ? turned(base[d], c.period[d]) : base[d] + 2;
+    emit(pattern::block_colour(base, c.period), b);
+  });
 }
 
 /// What sum_block() does with pairs of cells.
@@ -103,19 +115,21 @@ inline void sum_block_of(const problem<D, R>& p, const column<block<D>>& blocks,
   sum_block(p, blocks[k], to);
 }
 
-/// The blocks of each of the 2^d colours.
+/// The blocks of each colour.
 template <int D>
 class coloured_blocks {
  public:
-  static constexpr unsigned colours = pattern::block_cells<D>;
+  static constexpr unsigned most_colours = pattern::stencil_cells<D>;  ///< three along each axis
 
   /// The same lists in the same order for every team.
   void build(const cells<D>& c, const team& t);
 
+  unsigned colours() const { return colours_; }
   const column<block<D>>& operator[](unsigned colour) const { return blocks_[colour]; }
 
  private:
-  std::array<column<block<D>>, colours> blocks_;
+  unsigned colours_ = 0;
+  std::array<column<block<D>>, most_colours> blocks_;
 };
 
 #define PAIRSUM_COLOURED_BLOCKS(D) extern template class coloured_blocks<D>;

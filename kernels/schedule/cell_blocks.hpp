@@ -37,8 +37,8 @@ class cell_blocks {
   }
 
   /// Does nothing, and returns false, if the cells are those of the last call. Throws pairsum::error if blocks of two
-  /// colours do not fit on a grid that closes on itself; on one that they do not divide some are wider than asked for
-  /// (block_cut.hpp).
+  /// colours do not fit on a grid that closes on itself; on one that they do not divide some are wider than asked for,
+  /// and an axis of 3 cells is not cut (block_cut.hpp).
   bool build(const cells<D>& c);
 
   /// As built last: it fits the grid and the dimension.

@@ -10,8 +10,9 @@
 //   reduce:  u = u^0 + u^1 + ... + u^(2^d - 1)           parallel over particles
 //
 // Race-free: blocks of a pass share no cell, and passes share no copy. Every cell with fluid lies in exactly one block
-// of each pass, so a block can zero its particles itself, while they are in the cache. Bit-identical for every number
-// of threads: one thread sums each block, and copies are reduced in the order of the passes.
+// of each pass, so a block can zero its particles itself, while they are in the cache; but around an axis of 3 cells a
+// pass leaves cells out, and copies are zeroed beforehand. Bit-identical for every number of threads: one thread sums
+// each block, and copies are reduced in the order of the passes.
 #include <algorithm>
 
 #include <pairsum/schedule/block.hpp>
@@ -22,7 +23,6 @@ namespace pairsum {
 template <int D, class R>
 class pass_buffers final : public schedule<D, R> {
   using P = problem<D, R>;
-  static constexpr unsigned passes = coloured_blocks<D>::colours;
 
  public:
   static constexpr backend_traits traits{
@@ -33,15 +33,22 @@ class pass_buffers final : public schedule<D, R> {
 
   void prepare(const P& p, const team& t) override {
     blocks_.build(p.cells(), t);
-    copies_.resize(passes, p);
+    passes_ = blocks_.colours();
+    copies_.resize(passes_, p);
     end_[0] = 0;
-    for (unsigned o = 0; o < passes; ++o) end_[o + 1] = end_[o] + blocks_[o].size();
+    for (unsigned o = 0; o < passes_; ++o) end_[o + 1] = end_[o] + blocks_[o].size();
   }
-  void zero(const P&, const team&) override {}  // blocks do
+  void zero(const P& p, const team& t) override {
+    if (passes_ == pattern::block_cells<D>) return;  // blocks do
+    t.for_pieces(p.fluid_count, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (unsigned o = 0; o < passes_; ++o) p.pairs->zero(copies_.of(p, o), begin, end);
+    });
+  }
   /// Blocks pass after pass.
-  std::size_t size(const P&, unsigned) const override { return end_[passes]; }
+  std::size_t size(const P&, unsigned) const override { return end_[passes_]; }
   void unit(const P& p, unsigned, std::size_t k, int thread) override {
-    const auto o = static_cast<unsigned>(std::upper_bound(end_.begin() + 1, end_.end(), k) - (end_.begin() + 1));
+    const auto o =
+        static_cast<unsigned>(std::upper_bound(end_.begin() + 1, end_.begin() + 1 + passes_, k) - (end_.begin() + 1));
     const auto& blocks = blocks_[o];
     k -= end_[o];
     const target to{.u = copies_.of(p, o), .thread = thread};
@@ -56,7 +63,8 @@ class pass_buffers final : public schedule<D, R> {
  private:
   coloured_blocks<D> blocks_;
   rate_copies<D, R> copies_;
-  std::array<std::size_t, passes + 1> end_{};
+  unsigned passes_ = 0;
+  std::array<std::size_t, coloured_blocks<D>::most_colours + 1> end_{};
 };
 
 }  // namespace pairsum

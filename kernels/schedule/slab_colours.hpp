@@ -11,12 +11,13 @@ namespace pairsum {
 
 /// Slabs of at least `thickness` (from 2) layers by coordinate alone, whichever layers hold fluid, so that slabs of
 /// equal parity never write to one layer: slab [a, b) writes to a..b, and the next but one begins at b + 2 or later. On
-/// a grid of n layers that closes on itself their number is even, else the first and the last would be of one colour.
+/// a grid of n layers that closes on itself their number is even, else the first and the last would be of one colour; 3
+/// layers are one slab.
 class slab_colours {
  public:
   static constexpr unsigned colours = 2;
 
-  /// `around`: see layers_around(); even and at least 4, or 0.
+  /// `around`: see layers_around(); even, 3, or 0.
   slab_colours(std::int64_t thickness, std::int64_t around)
       : cut_(around > 0 ? std::min(thickness, around / 2) : thickness, around) {}
 

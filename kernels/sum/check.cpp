@@ -13,9 +13,12 @@
 namespace pairsum {
 namespace {
 
-bool inside(const particle_table& p, std::size_t i, const std::vector<double>& low, const std::vector<double>& high) {
+bool inside(const particle_table& p, std::size_t i, const setup& s) {
   bool in = true;
-  for (std::size_t d = 0; d < low.size(); ++d) in = in && p.x[d][i] >= low[d] && p.x[d][i] <= high[d];
+  for (std::size_t d = 0; d < s.omega_low.size(); ++d) {
+    const double x = p.x[d][i];
+    in = in && (s.periodic.on[d] ? std::isfinite(x) : x >= s.omega_low[d] && x <= s.omega_high[d]);
+  }
   return in;
 }
 
@@ -74,9 +77,9 @@ void check_domain(const setup& s) {
       throw error("a " + std::to_string(s.dim) + "D domain has no axis " + "xyz"[d] + " that could be periodic");
   for (std::size_t d = 0; d < s.omega_low.size(); ++d)
     if (const double reaches = (s.omega_high[d] - s.omega_low[d]) / s.constants.H;
-        s.periodic.on[d] && !(reaches > 3.999))
-      throw error("a periodic box must be 4 support radii or more along each axis, component " + std::to_string(d) +
-                  " is " + text(reaches));
+        s.periodic.on[d] && !(reaches > 2.999))
+      throw error("a periodic box must be 3 support radii or more along each periodic axis, component " +
+                  std::to_string(d) + " is " + text(reaches));
 }
 
 void check_input(const particle_table& p, const setup& s) {
@@ -107,7 +110,7 @@ void check_input(const particle_table& p, const setup& s) {
     }
     positive(p.rho[i], "density");
     positive(p.m[i], "mass");
-    outside += !inside(p, i, s.omega_low, s.omega_high);
+    outside += !inside(p, i, s);
   }
   if (outside > 0)
     throw error(std::to_string(outside) + " of " + std::to_string(p.size()) +
@@ -154,11 +157,11 @@ void check_order(const std::vector<std::uint32_t>& order, std::size_t rows) {
   if (!once) throw error("an order of memory must name each of the " + std::to_string(rows) + " particles once");
 }
 
-std::size_t drop_outside(particle_table& p, const std::vector<double>& low, const std::vector<double>& high) {
+std::size_t drop_outside(particle_table& p, const setup& s) {
   std::size_t kept = 0;
   const std::size_t n = p.size();
   for (std::size_t i = 0; i < n; ++i) {
-    if (!inside(p, i, low, high)) continue;
+    if (!inside(p, i, s)) continue;
     for (int d = 0; d < p.dim; ++d) {
       p.x[d][kept] = p.x[d][i];
       p.v[d][kept] = p.v[d][i];

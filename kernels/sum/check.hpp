@@ -8,7 +8,7 @@
 namespace pairsum {
 
 /// Throws pairsum::error unless H, Omega and every particle are usable: names the first bad particle, or counts those
-/// outside Omega.
+/// outside Omega. Beyond the faces of a periodic axis nothing is outside.
 void check_input(const particle_table& p, const setup& s);
 
 /// Throws pairsum::error if a fluid and a boundary particle lie on the same point in precision R: names both. For
@@ -22,7 +22,7 @@ void check_domain(const setup& s);
 /// Throws pairsum::error unless `order` is empty or names each of `rows` ids once.
 void check_order(const std::vector<std::uint32_t>& order, std::size_t rows);
 
-/// Removes particles outside the closed Omega; returns how many. Ids are row numbers, so they change.
-std::size_t drop_outside(particle_table& p, const std::vector<double>& low, const std::vector<double>& high);
+/// Removes particles outside the closed Omega of `s`; returns how many. Ids are row numbers, so they change.
+std::size_t drop_outside(particle_table& p, const setup& s);
 
 }  // namespace pairsum

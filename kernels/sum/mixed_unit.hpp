@@ -8,7 +8,7 @@ namespace pairsum {
 inline constexpr double mixed_places_per_reach = 1 << 28;
 inline double mixed_unit(double reach) { return std::exp2(std::floor(std::log2(reach / mixed_places_per_reach))); }
 /// Along a periodic axis: as fine, and such that the edge is a multiple of 2^32, so that differences modulo
-/// 2^32 are those through the faces too. Edges of one turn are at least 4 cutoffs, so that a cutoff fits in half a
+/// 2^32 are those through the faces too. Edges of one turn are at least 3 cutoffs, so that a cutoff fits in half a
 /// turn.
 inline double mixed_unit(double reach, double edge) {
   constexpr double turn = 4294967296, spare = 1.01;

@@ -106,6 +106,7 @@ def test_a_dry_run_refuses_what_the_run_refuses_and_neither_leaves_a_trace(pairs
     (["--interaction", "nope"], ["count"]),
     (["--seed", "-1"], ["--seed", "whole number from 0"]),
     (["--dx", "1e-300"], ["more than 2^32 particles"]),
+    (["--case", "periodic_lattice", "--dim", "3", "--dx", "0.15", "--grid", "hashed_grid"], ["no hashed grid goes round", "compact_grid"]),
 ])
 def test_verify_refuses(pairsum, words, says):
     assert refused(pairsum("verify", *words), *says)

@@ -54,6 +54,16 @@ def test_verify(pairsum):
         assert list(schema.iter_errors(changed(document, path, wrong))), path
 
 
+def test_verify_takes_the_other_grids_where_a_box_is_too_narrow_for_the_hashed_one(pairsum):
+    words = ["--case", "periodic_lattice", "--dx", "0.15", "--state", "perturbed", "--grid", "all"]  # 3 cells along each axis
+    done = pairsum("verify", "--dim", "3", "--precision", "double", "--smoothing", "wendland_c2", "--threads", "1,2", "--isa", "scalar",
+                   "--backend", "naive,symmetric_omp", *words, "--json")
+    assert done.returncode == 0, done.stderr
+    document = json.loads(done.stdout)
+    assert document["failed"] == 0
+    assert {s["grid"] for world in document["worlds"] for s in world["sums"]} == {"dense_grid", "compact_grid"}
+
+
 def test_verify_refuses_with_nothing_on_stdout(pairsum):
     done = pairsum("verify", "--backend", "nope", "--json")
     assert (done.returncode, done.stdout) == (2, "") and "nope" in done.stderr

@@ -67,9 +67,9 @@ int main(int argc, char** argv) {
                            {"fluid", c.particles.count(particle_kind::fluid)},
                            {"low", c.omega_low},
                            {"high", c.omega_high},
-                           {"periodic", c.periodic}};
+                           {"periodic", c.periodic.any()}};
     std::puts(j.dump().c_str());
-    if (!out.empty()) write_hdf(out, c, {set.time, 7, set.dx, set.facts});
+    if (!out.empty()) write_hdf(out, c, {.time = set.time, .step = 7, .dx = set.dx, .facts = set.facts});
     if (!xmf.empty()) write_xmf(xmf, {{out, 0, c.particles.size()}, {out, 1, c.particles.size()}});
   } catch (const error& e) {
     std::fprintf(stderr, "%s\n", e.what());

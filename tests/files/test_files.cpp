@@ -185,7 +185,8 @@ TEST_F(files_test, what_is_written_is_read_bit_for_bit) {
       c.eos.B = 1.0 / 3;
       c.gravity = 1.62;
       SCOPED_TRACE(name + std::to_string(dim));
-      write_hdf(path("a.hdf"), c, {0.5, 12, dx, {{"what", "value", origin::given, "from"}}});
+      write_hdf(path("a.hdf"), c,
+                {.time = 0.5, .step = 12, .dx = dx, .facts = {{"what", "value", origin::given, "from"}}});
       const read_set got = read_particles({path("a.hdf")});
       const particle_table &a = c.particles, &b = got.initial.particles;
       ASSERT_EQ(b.dim, dim);

@@ -54,7 +54,7 @@ void expect_conflicts(std::int64_t period, std::int64_t extent, int one_in) {
 }
 
 TEST(block_conflicts, are_the_pairs_that_write_to_a_common_cell) {
-  for (const std::int64_t period : {0, 4, 6, 10})
+  for (const std::int64_t period : {0, 3, 4, 6, 10})
     for (const int one_in : {1, 2, 9}) {
       expect_conflicts<1>(period, 40, one_in);
       expect_conflicts<2>(period, 16, one_in);

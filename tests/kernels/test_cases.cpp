@@ -165,7 +165,7 @@ TEST(periodic_lattice, is_the_lattice_in_a_periodic_box) {
     for (const auto& x : moved.particles.x)
       for (const double a : x) ASSERT_TRUE(a >= 0 && a < 1);
   }
-  EXPECT_TRUE(says(error_of([] { made("periodic_lattice", 0.13); }), {"periodic_lattice", "0.25 m", "is 0.26"}));
+  EXPECT_TRUE(says(error_of([] { made("periodic_lattice", 0.17); }), {"periodic_lattice", "1/3 m", "is 0.34"}));
   initial_condition c = made("periodic_lattice", 0.125);
   for (auto& x : c.particles.x) std::ranges::fill(x, 0.01);
   perturb(c, 0.125, 1);  // who leaves comes back

@@ -113,6 +113,13 @@ TEST(block_cut, goes_round_in_two_colours) {
     }
 }
 
+TEST(block_cut, leaves_an_axis_of_3_cells_whole) {
+  for (const std::int64_t width : {2, 3, 16}) {
+    EXPECT_TRUE(block_cut(width, 3).fits());
+    for (std::int64_t cell = 0; cell < 3; ++cell) EXPECT_EQ(block_cut(width, 3).block_of(cell), 0);
+  }
+}
+
 TEST(cell_blocks, one_pass_has_them_all) {
   const indexed_scene s(make_scene("dam_break", 0.05, "rest"), 3);
   cell_blocks<3> blocks;

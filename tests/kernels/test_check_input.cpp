@@ -102,6 +102,11 @@ TEST_F(check_input_test, particles_outside_omega_are_counted) {
   p.x[1][2] = 1.8;
   p.x[2][3] = 0.61;
   EXPECT_EQ(refusal(), "") << "Omega is closed";
+  p.x[1][2] = 1.9;
+  expect_refusal({"1 of"});
+  s.world.periodic.on[1] = true;
+  EXPECT_EQ(refusal(), "") << "it comes back";
+  EXPECT_EQ(drop_outside(p, s.world), 0u);
 }
 
 TEST_F(check_input_test, the_world_must_be_usable) {
@@ -121,6 +126,10 @@ TEST_F(check_input_test, the_world_must_be_usable) {
   s.world.omega_high = {3.3, 1.8, 0.61};
   s.world.dim = 2;
   expect_refusal({"3D", "2D"});
+  s.world.omega_high = s.world.omega_low = {0, 0};
+  s.world.periodic.on[2] = true;
+  EXPECT_TRUE(says(error_of([&] { (void)registry::instance().make_summation(s.world); }),
+                   {"a 2D domain has no axis z that could be periodic"}));
 }
 
 TEST_F(check_input_test, drop_outside_keeps_the_others_in_order) {
@@ -128,7 +137,7 @@ TEST_F(check_input_test, drop_outside_keeps_the_others_in_order) {
   p.x[0][1] = -1;
   p.x[1][4] = nan;
   p.x[2].back() = 7;
-  EXPECT_EQ(drop_outside(p, s.world.omega_low, s.world.omega_high), 3u);
+  EXPECT_EQ(drop_outside(p, s.world), 3u);
   ASSERT_EQ(p.size(), before.size() - 3);
   EXPECT_EQ(refusal(), "");
   std::size_t k = 0;
@@ -143,7 +152,7 @@ TEST_F(check_input_test, drop_outside_keeps_the_others_in_order) {
     ASSERT_EQ(p.kind[k], before.kind[i]);
     ++k;
   }
-  EXPECT_EQ(drop_outside(p, s.world.omega_low, s.world.omega_high), 0u);
+  EXPECT_EQ(drop_outside(p, s.world), 0u);
 }
 
 TEST_F(check_input_test, a_failing_load_changes_nothing) {

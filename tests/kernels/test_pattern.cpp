@@ -136,6 +136,8 @@ cells<D> full_cells(int side) {
   c.range.resize(n + 1);
   c.neighbours.resize((n + 1) * cells<D>::stencil);
   c.colour.resize(n + 1);
+  c.place.resize(n + 1);
+  c.period.fill(side);
   c.fluid_cells = c.total = n;
   c.range[0] = {};
   c.colour[0] = 0;
@@ -145,6 +147,7 @@ cells<D> full_cells(int side) {
     c.colour[cell] = static_cast<std::uint8_t>(t.parity(static_cast<int>(cell) - 1));
     for (unsigned k = 0; k < cells<D>::stencil; ++k) {
       auto at = t.coordinates(static_cast<int>(cell) - 1);
+      for (int d = 0; d < D; ++d) c.place[cell][d] = at[d];
       const auto o = pattern::neighbour_offset<D>(k);
       for (int d = 0; d < D; ++d) at[d] += o[d];
       c.neighbours[cell * cells<D>::stencil + k] = static_cast<std::uint32_t>(t.cell(at)) + 1;
@@ -162,7 +165,7 @@ block_lists<D> library_blocks(int side, const team& t = team()) {
   coloured_blocks<D> built;
   built.build(full_cells<D>(side), t);
   block_lists<D> lists;
-  for (unsigned o = 0; o < coloured_blocks<D>::colours; ++o) lists.emplace_back(built[o].begin(), built[o].end());
+  for (unsigned o = 0; o < built.colours(); ++o) lists.emplace_back(built[o].begin(), built[o].end());
   return lists;
 }
 
@@ -206,19 +209,22 @@ TYPED_TEST_SUITE(library_blocks_test, library_dims);
 
 TYPED_TEST(library_blocks_test, cover_each_pair_once_without_conflicts) {
   constexpr int D = TypeParam::value;
-  for (const int side : {4, 6}) {
+  for (const int side : {3, 4, 6}) {
     EXPECT_EQ(fault_of<D>(library_blocks<D>(side), side), "") << "side " << side;
     EXPECT_EQ(fault_of<D>(library_blocks<D>(side, team::omp(3)), side), "") << "side " << side;
   }
 }
 TYPED_TEST(library_blocks_test, check_rejects_merged_colours) {
   constexpr int D = TypeParam::value;
-  const auto good = library_blocks<D>(4);
-  for (std::size_t o = 1; o < good.size(); ++o) {
-    auto merged = good;
-    merged[0].insert(merged[0].end(), good[o].begin(), good[o].end());
-    merged[o].clear();
-    EXPECT_EQ(fault_of<D>(merged, 4), "two blocks of one colour share a cell") << "colour " << o;
+  for (const int side : {3, 4}) {
+    const auto good = library_blocks<D>(side);
+    EXPECT_EQ(good.size(), std::pow(side == 3 ? 3 : 2, D));
+    for (std::size_t o = 1; o < good.size(); ++o) {
+      auto merged = good;
+      merged[0].insert(merged[0].end(), good[o].begin(), good[o].end());
+      merged[o].clear();
+      EXPECT_EQ(fault_of<D>(merged, side), "two blocks of one colour share a cell") << "colour " << o;
+    }
   }
 }
 TYPED_TEST(library_blocks_test, check_rejects_lost_repeated_and_bent_blocks) {
@@ -241,7 +247,7 @@ TYPED_TEST(library_blocks_test, check_rejects_wrong_colours_of_the_cells) {
   coloured_blocks<D> built;
   built.build(c, team());
   block_lists<D> lists;
-  for (unsigned o = 0; o < coloured_blocks<D>::colours; ++o) lists.emplace_back(built[o].begin(), built[o].end());
+  for (unsigned o = 0; o < built.colours(); ++o) lists.emplace_back(built[o].begin(), built[o].end());
   EXPECT_NE(fault_of<D>(lists, 4), "");
 }
 

@@ -39,6 +39,7 @@ TEST(slab_colours, no_two_slabs_of_a_colour_write_to_a_layer) {
         EXPECT_GE(n, std::min(thickness, around / 2));
       }
     }
+  for (std::int64_t at = 0; at < 3; ++at) EXPECT_EQ(slab_colours(2, 3).slab_of(at), 0) << "3 layers are one slab";
   for (const std::int64_t thickness : {2, 3, 64}) {
     EXPECT_EQ(conflicts(slab_colours(thickness, 0), 0, 500), 0);
     EXPECT_GT(conflicts(slab_colours(thickness, 0), 0, 500, true), 0);

@@ -54,7 +54,7 @@ std::vector<std::uint64_t> random_work(std::size_t n, std::uint64_t seed) {
 }
 
 class rings_test : public testing::TestWithParam<int> {};  // layers around; 0: an open grid of 9
-INSTANTIATE_TEST_SUITE_P(layers, rings_test, testing::Values(0, 4, 6, 8, 10));
+INSTANTIATE_TEST_SUITE_P(layers, rings_test, testing::Values(0, 3, 4, 6, 8, 10));
 
 /// Every set of layers with fluid, every number of threads.
 TEST_P(rings_test, locks_exclude_what_would_race_and_every_one_is_needed) {
@@ -86,7 +86,7 @@ TEST_P(rings_test, locks_exclude_what_would_race_and_every_one_is_needed) {
       ASSERT_EQ(next, layers.size() + 1);
     }
   }
-  EXPECT_GT(with_locks, 100);
+  EXPECT_GT(with_locks, around == 3 ? 40 : 100);
 }
 
 TEST(slabs, one_takes_no_lock_and_gaps_need_none) {

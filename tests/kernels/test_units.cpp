@@ -5,7 +5,7 @@
 #include <pairsum/schedule/block_conflicts.hpp>
 #include <pairsum/sum/grids.hpp>
 #include <pairsum/sum/setup_of.hpp>
-#include "scene.hpp"
+#include "periodic_box.hpp"
 #include "unit_trace.hpp"
 
 // Is a colour free of conflicts on every grid, the seams of a torus that three colours do not go round among them?
@@ -29,6 +29,21 @@ struct world {
   const char* name;
   double dx;
   std::vector<grid_choice> grids;
+  std::array<double, 3> reaches{};  ///< edges, in units of H, that the unit cube is pressed to; 0: it stays
+  axes periodic{};                  ///< as well
+
+  initial_condition make(int dim) const {
+    initial_condition c =
+        make_case(name, {.dim = dim, .dx = dx, .H = reaches[0] > 0 ? 1.0 / 8 : 0, .state = "perturbed"});
+    for (int d = 0; d < dim; ++d) {
+      const auto k = static_cast<std::size_t>(d);
+      if (periodic[d]) c.periodic.on[k] = true;
+      if (reaches[k] == 0) continue;
+      c.omega_high[k] = reaches[k] * c.H;
+      for (double& x : c.particles.x[k]) x *= c.omega_high[k];
+    }
+    return c;
+  }
 };
 
 template <int D>
@@ -40,7 +55,19 @@ std::vector<world> worlds() {
           {"periodic_lattice", 1.0 / 8, every_grid({2})},
           {"periodic_lattice", 1.0 / 16, every_grid({2, 3})},
           {"periodic_lattice", 1.0 / 22, grids_without_M()},
-          {"periodic_lattice", 1.0 / 30, D == 3 ? std::vector<grid_choice>{} : grids_without_M()}};
+          {"periodic_lattice", 1.0 / 30, D == 3 ? std::vector<grid_choice>{} : grids_without_M()},
+          // axes of 3 cells, and some that are open
+          {"periodic_lattice", 1.0 / 12, grids_without_M(), {3, 3, 3}},
+          {"periodic_lattice", 1.0 / 12, grids_without_M(), {3.5, 8, 6}},
+          {"periodic_lattice", 1.0 / 12, grids_without_M(), {8, 6, 3}},
+          {"random_uniform", D == 3 ? 0.08 : 0.02, every_grid({2}), {8, 9, 4.5}, along_x},
+          {"random_uniform",
+           D == 3 ? 0.08 : 0.02,
+           grids_without_M(),
+           {8, 3.5, 6},
+           D == 1   ? along_x
+           : D == 2 ? along_y
+                    : along_yz}};
 }
 
 template <int D>
@@ -49,7 +76,7 @@ void units_of_a_pass_write_different_particles(const std::string& backend) {
   std::size_t conflicts_of_all = 0;
   for (const world& w : worlds<D>())
     for (const grid_choice& grid : w.grids) {
-      const initial_condition start = make_case(w.name, {.dim = D, .dx = w.dx, .state = "perturbed"});
+      const initial_condition start = w.make(D);
       const scene s{start.particles, with(setup_of(start), backend, grid)};
       const indexed<D> i(s, s.world);
       const auto passes = units_of<D>(b, i.particles, i.index, s.world);
@@ -83,7 +110,7 @@ void tasks_that_write_to_one_particle_conflict() {
   for (const world& w : worlds<D>())
     for (const grid_choice& grid : w.grids)
       for (const char* block : {"slab:2", "brick:2"}) {
-        const initial_condition start = make_case(w.name, {.dim = D, .dx = w.dx, .state = "perturbed"});
+        const initial_condition start = w.make(D);
         scene s{start.particles, with(setup_of(start), "task_conflicts", grid)};
         s.world.block = block;
         const indexed<D> i(s, s.world);

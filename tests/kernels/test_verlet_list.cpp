@@ -234,7 +234,7 @@ TEST(verlet_list_in_float, is_made_anew_where_rounding_is_as_wide_as_the_skin) {
 }
 
 TEST(verlet_list, that_does_not_fit_into_a_periodic_box_says_that_it_needs_room_for_its_skin) {
-  const scene s = placed(2, {4, 4, 0}, 1, 1, [](std::size_t) { return std::array<double, 3>{1, 1, 0}; });
+  const scene s = placed(2, {3, 3, 0}, 1, 1, [](std::size_t) { return std::array<double, 3>{1, 1, 0}; });
   const auto refusal = [&](const char* backend) {
     return error_of(
         [&] { (void)registry::instance().make_summation(with(s.world, backend, grid_choice("compact_grid", 0))); });

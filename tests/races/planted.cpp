@@ -19,7 +19,7 @@ class nowait final : public schedule<D, R> {
   static constexpr backend_traits traits = racy;
 
   void prepare(const P& p, const team& t) override { blocks_.build(p.cells(), t); }
-  unsigned colours(const P&) const override { return coloured_blocks<D>::colours; }
+  unsigned colours(const P&) const override { return blocks_.colours(); }
   std::size_t size(const P&, unsigned colour) const override { return blocks_[colour].size(); }
   void unit(const P& p, unsigned colour, std::size_t k, int thread) override {
     sum_block_of(p, blocks_[colour], k, p.to(thread));
@@ -50,7 +50,7 @@ class one_colour final : public schedule<D, R> {
     coloured_blocks<D> coloured;
     coloured.build(p.cells(), t);
     blocks_.clear();
-    for (unsigned o = 0; o < coloured.colours; ++o)
+    for (unsigned o = 0; o < coloured.colours(); ++o)
       blocks_.insert(blocks_.end(), coloured[o].begin(), coloured[o].end());
   }
   std::size_t size(const P&, unsigned) const override { return blocks_.size(); }
