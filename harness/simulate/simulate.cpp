@@ -38,7 +38,7 @@ class every {
     if (period > 0) count_ = static_cast<std::uint64_t>(std::floor(from / period * (1 + 1e-12))) + 1;
   }
   double next() const { return period_ > 0 ? period_ * static_cast<double>(count_) : HUGE_VAL; }
-  bool due(double t) const { return t >= next(); }
+  bool due(double t) const { return t >= next() * (1 - 1e-12); }
   void pass(double t) {
     while (due(t)) ++count_;
   }

@@ -46,8 +46,9 @@ const std::vector<file_format>& file_formats() {
 }
 
 bool ends_in(std::string_view path, std::string_view ending) {
-  return path.size() >= ending.size() && std::ranges::equal(path.substr(path.size() - ending.size()), ending, {},
-                                                            [](unsigned char c) { return std::tolower(c); });
+  const auto lower = [](unsigned char c) { return std::tolower(c); };
+  return path.size() >= ending.size() &&
+         std::ranges::equal(path.substr(path.size() - ending.size()), ending, {}, lower, lower);
 }
 
 file_content read_file(const std::string& path, const hints& told) {

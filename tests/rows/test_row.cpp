@@ -234,10 +234,9 @@ TEST(row, messages_say_what_is_right_and_what_is_there) {
             "key \"point\" should be an object, is an array");
   EXPECT_EQ(rejection(s, [](json& j) { j["schema"] = "pairsum.row/1"; }),
             "key \"schema\" should be \"pairsum.row/3\" or \"pairsum.row/2\", is \"pairsum.row/1\"");
-  EXPECT_EQ(
-      rejection(s, [](json& j) { j["kind"] = "samples"; }),
-      "key \"kind\" should be \"sample\", \"environment\", \"backend\", \"peak\", \"pace\", \"round\", \"end\" or "
-      "\"void\", is \"samples\"");
+  EXPECT_EQ(rejection(s, [](json& j) { j["kind"] = "samples"; }),
+            "key \"kind\" should be \"sample\", \"environment\", \"backend\", \"peak\", \"pace\", \"round\", \"end\", "
+            "\"void\" or \"particles\", is \"samples\"");
   EXPECT_EQ(rejection(s, [](json& j) { j["verify"]["fingerprint"] = "xyz"; }),
             "key \"verify.fingerprint\" should be 16 hex digits, is \"xyz\"");
   EXPECT_EQ(rejection(s, [](json& j) { j["utc"] = "22.11.2026"; }),
