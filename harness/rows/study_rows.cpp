@@ -96,6 +96,7 @@ void to_json(json& j, const particles_row& p) {
 
 void from_json(const json& j, particles_row& p) {
   fields from(j);
+  from.literal("schema", row_schema);  // the former one had no such rows
   read_head(from, "particles", p);
   p.particles = from.hex("particles");
   p.files = from.texts("files");

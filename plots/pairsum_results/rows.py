@@ -266,7 +266,7 @@ def read_file(path: pathlib.Path) -> dict[str, pd.DataFrame]:
     faults: list[tuple[int, str]] = []
     groups: dict[tuple[str, str], tuple[list[int], list[dict]]] = {}
     for line, row in enumerate(rows, 1):
-        schemas = SCHEMAS[:1] if row.get("kind") == "backend" else SCHEMAS
+        schemas = SCHEMAS[:1] if row.get("kind") in ("backend", "particles") else SCHEMAS
         for key, words in (("schema", schemas), ("kind", tuple(_KINDS))):
             if row.get(key) not in words:
                 said = " or ".join(json.dumps(w) for w in words)

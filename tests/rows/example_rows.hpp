@@ -86,6 +86,23 @@ inline sample measured() {
   return s;
 }
 
+inline particles_row particles() {
+  return particles_row{"talk",
+                       "2026-11-22T15:30:00.7Z",
+                       "00ff00ff00ff00ff",
+                       {"water.csv", "wall.csv:boundary"},
+                       {{"H", "0.2", "derived", "2 h of the header"}, {"--rho0", "998", "given", ""}}};
+}
+
+/// Of these particles.
+inline sample of_files() {
+  sample s = measured();
+  s.point.case_name = "file";
+  s.point.state = "read";
+  s.point.particles = "00ff00ff00ff00ff";
+  return s;
+}
+
 /// A point whose verification failed.
 inline sample failed() {
   sample s = measured();

@@ -17,10 +17,12 @@ int main(int argc, char** argv) {
       writer.write(example::environment());
       writer.write(example::peak());
       writer.write(example::backend());
+      writer.write(example::particles());
       writer.write(example::measured());
+      writer.write(example::of_files());
       writer.write(example::failed());
       writer.write(example::pace());
-      writer.write(example::closing());
+      writer.write(example::closing(3));
       writer.write(example::ended());
       writer.write(example::voided());
       return 0;

@@ -26,6 +26,8 @@ TEST(row, every_kind_survives_a_round_trip) {
   EXPECT_EQ(round_trip(example::failed()), example::failed());
   EXPECT_EQ(round_trip(example::environment()), example::environment());
   EXPECT_EQ(round_trip(example::backend()), example::backend());
+  EXPECT_EQ(round_trip(example::particles()), example::particles());
+  EXPECT_EQ(round_trip(example::of_files()), example::of_files());
   EXPECT_EQ(round_trip(example::voided()), example::voided());
   EXPECT_EQ(round_trip(example::peak()), example::peak());
   EXPECT_EQ(round_trip(example::pace()), example::pace());

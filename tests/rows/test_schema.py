@@ -58,7 +58,9 @@ def before(rows, row):
     if row["kind"] == "environment":
         return []
     if row["kind"] == "sample" and isinstance(row["point"], dict) and isinstance(row["point"].get("backend"), str):
-        return [environment, dict(backend, name=row["point"]["backend"])]
+        named = row["point"].get("particles")
+        return [environment, dict(backend, name=row["point"]["backend"]),
+                *(dict(r, particles=named) for r in rows if r["kind"] == "particles" and isinstance(named, str))]
     return [environment]
 
 
@@ -98,7 +100,8 @@ def changed(row, place, new):
 
 
 def test_every_kind_is_written_and_valid(rows, validator):
-    assert [row["kind"] for row in rows] == ["environment", "peak", "backend", "sample", "sample", "pace", "round", "end", "void"]
+    assert [row["kind"] for row in rows] == ["environment", "peak", "backend", "particles", "sample", "sample", "sample", "pace",
+                                           "round", "end", "void"]
     for row in rows:
         validator.validate(row)
 
@@ -108,6 +111,7 @@ def test_rows_with_a_key_missing_are_rejected(rows, former, validator):
         for place in places(row):
             free = place[0] in ("caches", "libraries") and len(place) == 2
             free = free or row["kind"] == "environment" and place == ("limits",)
+            free = free or place == ("point", "particles")
             free = free or row is former and place in (("point", "block"), ("workspace_bytes",))
             assert validator.is_valid(changed(row, place, ...)) == free, place
 
