@@ -8,6 +8,7 @@
 #include <pairsum/core/isa.hpp>
 #include <pairsum/sum/setup_of.hpp>
 #include "harness/environment/machine.hpp"
+#include "harness/evolve/initial_of.hpp"
 #include "harness/gbench/bench.hpp"
 #include "harness/measure/binding.hpp"
 #include "harness/measure/stopwatch.hpp"
@@ -31,7 +32,7 @@ struct shared_world {
   std::unique_ptr<verifier> oracle;
 
   explicit shared_world(const bench_request& r)
-      : initial(make_case(r.case_name, {.dx = r.dx, .H = 0, .state = r.state, .seed = 1})) {
+      : initial(initial_of(r.levels, r.levels.dx.front(), r.levels.states.front()).initial) {
     const worker_team all(runtime::omp, untimed_threads(usable_cores()), &binding_of(r));
     oracle = std::make_unique<verifier>(registry::instance(), setup_of(initial), initial.particles, all.get());
   }
@@ -84,32 +85,16 @@ void sum_benchmark(benchmark::State& state, const bench_request& r, const point&
 
 }  // namespace
 
-run_request as_run(const bench_request& r) {
-  run_request q;
-  q.case_name = r.case_name;
-  q.states = {r.state};
-  q.dx = {r.dx};
-  q.M = r.M;
-  q.threads = r.threads;
-  q.grids = r.grids;
-  q.isas = r.isas;
-  q.blocks = r.blocks;
-  q.backends.clear();
-  for (const backend_entry& b : registry::instance().backends())
-    if (b.unavailable.empty()) q.backends.emplace_back(b.traits.name);
-  return q;
-}
-
 bool any_failed() { return any_refused; }
 
 std::string register_backends(const bench_request& r) {
   const std::string pinned = binding_of(r).description();
-  for (const world_plan& points : expand(as_run(r)))
+  for (const world_plan& points : expand(r.levels))
     for (const point& p : points) {
       const backend_traits& traits = registry::instance().find_backend(p.backend).traits;
       std::string cells = cells_word(p);
       std::ranges::replace(cells, '=', ':');
-      const std::string name = fmt::format("{}/{}/{}/threads:{}{}{}", p.backend, r.case_name, cells, p.threads,
+      const std::string name = fmt::format("{}/{}/{}/threads:{}{}{}", p.backend, p.case_name, cells, p.threads,
                                            traits.vector == (p.isa != scalar_isa) ? "" : "/isa:" + p.isa,
                                            traits.blocks ? "/block:" + p.block : "");
       benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& s) { sum_benchmark(s, r, p); })

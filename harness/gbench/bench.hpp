@@ -1,6 +1,5 @@
 #pragma once
 #include <string>
-#include <vector>
 
 #include "harness/plan/plan.hpp"
 
@@ -8,20 +7,15 @@ namespace pairsum::harness {
 
 /// What pairsum_bench measures; set by its own flags, before Google Benchmark sees the rest.
 struct bench_request {
-  std::string case_name = "dam_break", state = "rest";
-  double dx = 0.02;
-  std::vector<int> M{6, 7}, threads{1};
-  std::vector<std::string> grids{"hashed_grid"}, isas{"default"}, blocks{"auto"};
-  std::string binding = "cores_first";  ///< how threads are pinned (thread_binding)
+  run_request levels;  ///< of every backend that is built
+  std::string binding = "cores_first";
 };
-
-/// The same as a request, of every backend that is built.
-run_request as_run(const bench_request& r);
 
 /// Registers one benchmark per backend x grid x M x threads, "symmetric_omp/dam_break/M:6/threads:2" or
 /// "symmetric_omp/dam_break/compact_grid/threads:2", with isa and block where a backend chooses them: manual time of
 /// the summation phase, counters for the other phases and the work. A backend whose rates are wrong gets an error
-/// instead of a time. Returns how their threads are pinned, in words.
+/// instead of a time.
+/// @return how threads are bound
 std::string register_backends(const bench_request& r);
 
 /// Did a backend have wrong rates?

@@ -3,17 +3,21 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include <pairsum/core/error.hpp>
+#include "harness/cli/profile_levels.hpp"
 #include "harness/environment/environment.hpp"
 #include "harness/environment/machine.hpp"
+#include "harness/evolve/initial_of.hpp"
 #include "harness/gbench/bench.hpp"
 #include "harness/gbench/out_file.hpp"
 #include "harness/measure/memory.hpp"
+#include "harness/plan/levels.hpp"
 #include "harness/plan/plan.hpp"
 #include "harness/plan/refusal.hpp"
-#include "harness/plan/words.hpp"
+#include "harness/plan/variants.hpp"
 #include "harness/plugin/plugins.hpp"
 #include "harness/terminal/program.hpp"
 
@@ -45,19 +49,15 @@ words_given parse(int argc, char** argv) {
   words_given w;
   bench_request& r = w.request;
   bool oversubscribe = false;
-  std::string M = "6,7", threads = "all", grid = "hashed_grid", isa = "default", block = "auto";
+  std::map<std::string, std::string> levels{
+      {"case", "dam_break"}, {"dx", "0.02"},    {"state", "rest"},      {"H", "0"}, {"M", "6,7"}, {"threads", "all"},
+      {"isa", "default"},    {"block", "auto"}, {"grid", "hashed_grid"}};
   std::optional<double> least_s;
   std::optional<std::int64_t> times;
   app.allow_extras();
   app.set_help_flag("");
-  app.add_option("--case", r.case_name);
-  app.add_option("--dx", r.dx);
-  app.add_option("--state", r.state);
-  app.add_option("--M", M);
-  app.add_option("--threads", threads);
-  app.add_option("--grid", grid);
-  app.add_option("--isa", isa);
-  app.add_option("--block", block);
+  for (auto& [level, text] : levels) app.add_option(option_of(level), text);
+  add_particle_options(app, levels);
   app.add_option("--binding", r.binding);
   app.add_flag("--oversubscribe", oversubscribe);
   add_plugin_option(app);
@@ -77,13 +77,11 @@ words_given parse(int argc, char** argv) {
   if (!w.out.empty()) w.rest.push_back("--benchmark_out=" + w.out);
   if (least_s) w.rest.push_back(fmt::format("--benchmark_min_time={}", *least_s));
   if (times) w.rest.push_back(fmt::format("--benchmark_repetitions={}", *times));
-  r.M = parse_counts("--M", M, 0);
-  r.threads = parse_counts("--threads", threads, usable_cores());
-  r.grids = parse_words("--grid", grid);
-  r.isas = parse_words("--isa", isa);
-  r.blocks = parse_words("--block", block);
-  check_request(as_run(r));
-  check_cores(r.threads, oversubscribe);
+  levels["backend"] = fmt::format("{}", fmt::join(available_backends(), ","));
+  r.levels = levels_of(levels, "", given_of(app));
+  fmt::print(stderr, "{}", take_particles(r.levels));
+  check_request(r.levels);
+  check_cores(r.levels.threads, oversubscribe);
   return w;
 }
 
@@ -93,7 +91,8 @@ int run(int argc, char** argv) {
   for (std::string& w : given.rest) {
     if (w == "--help" || w == "-h") {
       fmt::print(
-          "pairsum_bench [--case NAME] [--dx M] [--state rest|perturbed] [--M 6,7] [--threads 1,2|all] "
+          "pairsum_bench [--case NAME] [--dx M] [--state rest|perturbed] [--H M] [--particles FILES] [--M 6,7] "
+          "[--threads 1,2|all] "
           "[--grid NAMES] [--isa NAMES] [--block auto,slab:4] [--binding cores_first|none] [--oversubscribe] "
           "[--plugin FILE] [--benchmark_filter=REGEX ...]\n");
       benchmark::PrintDefaultHelp();
