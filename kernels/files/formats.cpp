@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/names.hpp>
 #include <pairsum/files/formats.hpp>
+#include <pairsum/files/words.hpp>
 
 #define FORMAT(word) file_format word();
 namespace pairsum::files::formats_of {
@@ -46,9 +46,7 @@ const std::vector<file_format>& file_formats() {
 }
 
 bool ends_in(std::string_view path, std::string_view ending) {
-  const auto lower = [](unsigned char c) { return std::tolower(c); };
-  return path.size() >= ending.size() &&
-         std::ranges::equal(path.substr(path.size() - ending.size()), ending, {}, lower, lower);
+  return path.size() >= ending.size() && same_word(path.substr(path.size() - ending.size()), ending);
 }
 
 file_content read_file(const std::string& path, const hints& told) {
