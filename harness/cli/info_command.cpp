@@ -62,6 +62,13 @@ pair_counts count_pairs(const initial_condition& c) {
   return counts;
 }
 
+nlohmann::json facts_json(const particles_of_request& set) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const auto& [what, value, how, from] : set.facts)
+    if (!what.starts_with("--")) all.push_back({{"what", what}, {"value", value}, {"how", how}, {"from", from}});
+  return all;
+}
+
 nlohmann::json info_json(const particles_of_request& set, const pair_counts& counts) {
   const initial_condition& c = set.initial;
   const std::size_t n = c.particles.size(), fluid = c.particles.count(particle_kind::fluid);
@@ -78,7 +85,7 @@ nlohmann::json info_json(const particles_of_request& set, const pair_counts& cou
           {"dx", set.dx},
           {"box", {{"low", c.omega_low}, {"high", c.omega_high}}},
           {"periodic", c.periodic.text()},
-          {"facts", set.facts},
+          {"facts", facts_json(set)},
           {"hash", set.hash}};
 }
 

@@ -26,6 +26,14 @@ double number(const std::string& option, const std::string& text) {
   return one.front();
 }
 
+int dimension(const std::string& text) {
+  check_word("dimension", text, std::vector<std::string_view>{"1", "2", "3"});
+  return text[0] - '0';
+}
+
+/// What a column may be.
+const std::vector<std::string_view> quantities{"x", "y", "z", "vx", "vy", "vz", "rho", "m", "h", "kind"};
+
 files::hints hints_of(const run_request& r) {
   files::hints told;
   if (r.H != 0) told.H = r.H;
@@ -44,7 +52,7 @@ files::hints hints_of(const run_request& r) {
     else if (word == "box")
       told.box = parse_numbers(option, text);
     else if (word == "file_dim")
-      told.dim = static_cast<int>(number(option, text));
+      told.dim = dimension(text);
     else if (word == "file_step")
       told.step = static_cast<std::int64_t>(number(option, text));
     else
@@ -52,6 +60,7 @@ files::hints hints_of(const run_request& r) {
         const std::size_t equals = one.find('=');
         if (equals == one.npos || equals == 0 || equals + 1 == one.size())
           throw error(fmt::format("{} takes QUANTITY=COLUMN, like x=Points:0, not \"{}\"", option, one));
+        check_word("quantity of --column", one.substr(0, equals), quantities);
         told.columns[one.substr(0, equals)] = one.substr(equals + 1);
       }
   }

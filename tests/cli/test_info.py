@@ -50,7 +50,7 @@ def test_pairs_are_those_of_brute_force(pairsum, tank, kind, walls):
 def test_the_text_says_what_was_assumed(pairsum, tank):
     done = pairsum("info", tank[0])
     assert done.returncode == 0, done.stderr
-    lines = {line.split("  ")[0]: line for line in done.stdout.splitlines()}
+    lines = {line.strip().split("  ")[0]: line for line in done.stdout.splitlines()}
     assert "assumed" in lines["support"] and "derived" in lines["H"] and "fluid-boundary" in lines["pairs"]
     assert "% of the distance tests hit" in lines["useful pairs"]
 
@@ -61,9 +61,9 @@ def test_what_is_wrong_is_one_line(pairsum, tank, tmp_path):
     refused(pairsum("info", tmp_path / "none"), "No such file")
     refused(pairsum("info", tmp_path / "text"), "no format")
     refused(pairsum("info", path, "--H", "x"), "--H")
-    refused(pairsum("info", path, "--H", "1,2"), "should be one number")
+    refused(pairsum("info", path, "--H", "1,2"), "takes one number")
     refused(pairsum("info", path, "--column", "u=x"), "--column", "vx")
-    refused(pairsum("info", path, "--dim", "4"), "--dim")
+    refused(pairsum("info", path, "--dim", "4"), "dimension")
     refused(pairsum("info", path, "--periodic", "all"), "--box")
     refused(pairsum("info", path, "--support", "-1"), "--support")
     path.write_bytes(path.read_bytes()[:5000])

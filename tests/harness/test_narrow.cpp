@@ -41,7 +41,8 @@ TEST(narrow, names_what_the_plan_has) {
   EXPECT_EQ(said({"backend=naive,nope"}), "the plan test has no backend nope; it has naive, symmetric_omp");
   EXPECT_EQ(said({"M=5"}), "the plan test has no M 5; it has 3, 4");
   EXPECT_EQ(said({"dx=0.2"}), "the plan test has no dx 0.2; it has 0.1, 0.05");
-  EXPECT_NE(said({"colour=red"}).find("unknown level of --only \"colour\"; valid: B, H, M, backend"), std::string::npos);
+  EXPECT_NE(said({"colour=red"}).find("unknown level of --only \"colour\"; valid: B, H, M, backend"),
+            std::string::npos);
   EXPECT_NE(said({"backend"}).find("like backend=naive, not \"backend\""), std::string::npos);
   EXPECT_NE(said({"backend="}).find("--only backend"), std::string::npos);
   EXPECT_NE(said({"M=x"}).find("--only M takes"), std::string::npos);
