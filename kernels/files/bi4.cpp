@@ -82,7 +82,10 @@ void read_domain(const bi4_items& file, const std::vector<int>& kept, file_conte
       if (other != d && to_image->number[other] != 0)
         file.refuse("has images shifted along another axis (" + name + "); pairsum's boxes are straight");
     const double period = std::abs(to_image->number[d]);
-    if (has_box && period > 0 && std::isfinite(period)) content.box_high[axis] = content.box_low[axis] + period;
+    if (!has_box || !(period > 0 && std::isfinite(period))) continue;
+    content.box_high[axis] = content.box_low[axis] + period;
+    if (!(content.box_high[axis] > content.box_low[axis]))
+      file.refuse("has a period of " + number_text(period) + " (" + name + "), which is nothing beside MapPosMin");
   }
 }
 

@@ -26,7 +26,7 @@ struct small {
   double floating = 0;
   int periodic = 0;
   bool flat = false, in_double = false;
-  std::vector<double> x_image{0, 0, 0}, box_high{2, 3, 4};
+  std::vector<double> x_image{0, 0, 0}, box_low{0, 0, 0}, box_high{2, 3, 4};
   std::vector<float> rho{1000, 1001, 1002, 1003};
   std::vector<std::string> more_arrays;
 
@@ -35,7 +35,7 @@ struct small {
             w.value<std::uint32_t>("Npiece", uint32, {1}),
             w.words("AppName", "DualSPHysics5"),
             w.value<std::int32_t>("Data2d", boolean, {flat}),
-            w.value<double>("MapPosMin", real64x3, {0, 0, 0}),
+            w.value<double>("MapPosMin", real64x3, box_low),
             w.value<double>("MapPosMax", real64x3, box_high),
             w.value<std::int32_t>("PeriMode", integer, {periodic}),
             w.value<double>("PeriXinc", real64x3, x_image),
@@ -138,6 +138,9 @@ TEST(bi4, periodic_axes) {
   EXPECT_EQ(s.content().box_high, (numbers{1.5, 3, 4}));
   s.x_image = {-2, 0, .1};
   EXPECT_EQ(s.refused(), " has images shifted along another axis (PeriXinc); pairsum's boxes are straight");
+  s.box_low = {1, 0, 0};
+  s.x_image = {1e-30, 0, 0};
+  EXPECT_EQ(s.refused(), " has a period of 1e-30 (PeriXinc), which is nothing beside MapPosMin");
 }
 
 TEST(bi4, a_case_before_its_run_has_no_box) {
