@@ -52,7 +52,7 @@ fs::path cache_folder() {
     const char* const text = std::getenv(name);
     return text != nullptr && *text != '\0' ? fs::path(text) : fs::path();
   };
-  if (const fs::path own = set("PAIRSUM_CACHE"); !own.empty()) return own;
+  if (fs::path own = set("PAIRSUM_CACHE"); !own.empty()) return own;
   if (const fs::path users = set("XDG_CACHE_HOME"); !users.empty()) return users / "pairsum";
   if (const fs::path home = set("HOME"); !home.empty()) return home / ".cache/pairsum";
   throw error("there is no folder to keep evolved states in: set PAIRSUM_CACHE to one");

@@ -66,7 +66,7 @@ csv_header find_header(csv_lines& lines, const std::string& path, const hints& t
                 "semicolons or tabs");
   for (const auto& [quantity, name] : told.columns)
     if (!most.column_named(name))
-      throw error(path + " has no column " + shown(name) + " (--column " + quantity + "=...); line " +
+      throw error((path + " has no column ").append(shown(name)) + " (--column " + quantity + "=...); line " +
                   std::to_string(most_at) + " has " + most.listed());
   throw error(path + " has no columns that are known as x and as y or z; line " + std::to_string(most_at) + " has " +
               most.listed() + "; say which, for example --column x=NAME");

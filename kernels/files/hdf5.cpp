@@ -90,7 +90,7 @@ std::optional<std::vector<double>> dialect_reader::attribute(const std::string& 
     const std::size_t at = one.find('@');
     const std::string object = at == 0 ? group : std::string(one.substr(0, at)), name(one.substr(at + 1));
     if (!object.empty() && !first_.has(object)) continue;
-    if (const auto numbers = first_.numbers(object, name)) return numbers;
+    if (auto numbers = first_.numbers(object, name)) return numbers;
     if (const auto text = first_.text(object, name))
       if (const auto number = number_in(*text)) return std::vector<double>{*number};
   }

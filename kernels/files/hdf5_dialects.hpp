@@ -16,8 +16,8 @@ enum class groups_meant {
 /// alone is a dataset with as many columns as dimensions. GROUP@NAME is an attribute, of the group with the particles
 /// if it begins with '@'.
 struct hdf5_dialect {
-  std::string_view name = "";
-  std::string_view groups = "";  ///< groups with particles; * stands for any letters
+  std::string_view name;
+  std::string_view groups;  ///< groups with particles; * stands for any letters
   groups_meant meant = groups_meant::all;
   std::string_view marks = "";                ///< one of these must be there; empty: nothing must
   std::string_view x = "", v = "";            ///< positions, velocities
