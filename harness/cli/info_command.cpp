@@ -57,8 +57,10 @@ pair_counts count_pairs(const initial_condition& c) {
   if (neighbours != 2 * counts.work.pairs_fluid_fluid + counts.work.pairs_fluid_boundary)
     throw error(fmt::format("the sum met {} neighbours, but {} pairs were counted", neighbours, counts.pairs()));
   counts.cells_of_box = 1;
-  for (std::size_t d = 0; d < c.omega_low.size(); ++d)
-    counts.cells_of_box *= std::max(1.0, std::floor((c.omega_high[d] - c.omega_low[d]) / c.H));
+  for (std::size_t d = 0; d < c.omega_low.size(); ++d) {
+    const double cells = (c.omega_high[d] - c.omega_low[d]) / c.H;
+    counts.cells_of_box *= std::max(1.0, c.periodic[static_cast<int>(d)] ? std::floor(cells) : std::ceil(cells));
+  }
   return counts;
 }
 
@@ -114,8 +116,9 @@ std::string info_text(const particles_of_request& set, const pair_counts& counts
        fmt::format("{:.1f} of the fluid, each pair once", static_cast<double>(counts.pairs()) / fluid));
   line("cells", fmt::format("{} of {:.0f} hold particles, {:.1f} each", w.cells_nonempty, counts.cells_of_box,
                             n / static_cast<double>(w.cells_nonempty)));
-  line("useful pairs", fmt::format("{:.1f} % of the distance tests hit",
-                                   100.0 * static_cast<double>(counts.pairs()) / static_cast<double>(w.pairs_tested)));
+  if (w.pairs_tested > 0)
+    line("useful pairs", fmt::format("{:.1f} % of the distance tests hit", 100.0 * static_cast<double>(counts.pairs()) /
+                                                                               static_cast<double>(w.pairs_tested)));
   line("grid", filled > 0.5
                    ? fmt::format("{:.0f} % of the cells are filled: dense_grid looks at few empty ones", 100 * filled)
                    : fmt::format("{:.0f} % of the cells are filled: compact_grid and hashed_grid keep no empty ones",

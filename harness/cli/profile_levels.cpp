@@ -45,9 +45,14 @@ run_request levels_of(const std::map<std::string, std::string>& options, const s
     if (!text.empty() && (profile.empty() || given.at(option_of(key).substr(2)) || !profile_says(key)))
       read_level(r, key, text, usable_cores(), option_of(key));
   if (r.particles.empty()) return r;
+  // The hash of a profile is of what its own words read.
+  for (const auto& [key, text] : options)
+    if (!text.empty() && (key == "H" || r.hints.contains(key) || key == "particles") &&
+        given.at(option_of(key).substr(2)))
+      r.particles_hash.clear();
   if (given.contains("dim") && given.at("dim") && options.contains("dim")) r.hints["file_dim"] = options.at("dim");
-  for (const char* const of_a_case : {"case", "dx", "state"})
-    if (given.at(of_a_case) && options.at(of_a_case) != "perturbed")
+  for (const char* const of_a_case : {"case", "dx"})
+    if (given.contains(of_a_case) && given.at(of_a_case))
       throw error(fmt::format("--{} is about a case, and --particles names files", of_a_case));
   return r;
 }

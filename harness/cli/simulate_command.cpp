@@ -58,15 +58,11 @@ int start(const simulate_options& o, const given_options& given) {
   fmt::print("{}", take_particles(r.levels));
   check_cores(r.levels.threads, o.oversubscribe);
   const bool dim3 = r.levels.dim == 3;
-  double energy_at_start = 0;
   bool first = true;
-  const simulate_result done = simulate(r, [&](const moment& m, const initial_condition& domain) {
-    const balance b = balance_of(m.particles, domain.gravity, domain.eos);
-    if (first) {
-      energy_at_start = b.energy();
+  const simulate_result done = simulate(r, [&](const moment& m, const balance& b, double energy_at_start) {
+    if (first)
       fmt::print("{:>9} {:>8} {:>10} {:>10} {:>8} {:>8}{} {:>8} {:>8}\n", "t [s]", "steps", "energy [J]", "change",
                  "x to [m]", "y to [m]", dim3 ? " z to [m]" : "", "speed", "lost");
-    }
     first = false;
     fmt::print("{:>9.4g} {:>8} {:>10.4g} {:>10} {:>8.4f} {:>8.4f}{} {:>8.3g} {:>8}\n", m.t, m.step, b.energy(),
                percent(b.energy(), energy_at_start), b.high[0], b.high[1],

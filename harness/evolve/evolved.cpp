@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/workers.hpp>
@@ -26,7 +27,7 @@ namespace fs = std::filesystem;
 /// To be raised when the recipe changes in any way.
 constexpr int recipe = 1;
 
-moment step_to(double time, const initial_condition& start, const std::string& called) {
+moment step_to(double time, const initial_condition& start, double dx, const std::string& called) {
   setup s = setup_of(start);
   s.backend = "sliced_2colour";
   s.interaction = "ferrari09_hard";
@@ -35,7 +36,7 @@ moment step_to(double time, const initial_condition& start, const std::string& c
   const worker_team workers(runtime::omp, untimed_threads(usable_cores()));
   moment from{start.particles, std::vector<std::uint32_t>(start.particles.size()), 0, 0, 0, 0};
   std::iota(from.ids.begin(), from.ids.end(), 0u);
-  simulation run(simulate_registry().make_summation(s), start, std::move(from), {}, workers.get());
+  simulation run(simulate_registry(dx).make_summation(s), start, std::move(from), {}, workers.get());
   progress shown(time);
   while (run.t() < time) {
     run.step(time);
@@ -45,7 +46,24 @@ moment step_to(double time, const initial_condition& start, const std::string& c
   return run.save();
 }
 
+/// What is kept there, if it is whole and of these words; else it is made anew.
+std::optional<saved_moment> read_if_right(const fs::path& file, const std::string& words) {
+  if (!fs::exists(file)) return std::nullopt;
+  try {
+    saved_moment saved = read_moment(file);
+    if (saved.settings == words) return saved;
+  } catch (const error&) {
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+void make_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) throw error(fmt::format("cannot make the folder {}: {}", folder.string(), code.message()));
+}
 
 fs::path cache_folder() {
   const auto set = [](const char* name) {
@@ -68,12 +86,14 @@ particles_of_request evolved(std::string_view case_name, const case_parameters& 
       nlohmann::json{recipe, case_name, c.dim, c.dx, c.seed, time, made.initial.particles.size()}.dump();
   const std::string called = fmt::format("{} evolved to {:g} s", case_name, time);
   const fs::path file = cache_folder() / fmt::format("evolved-{}.hdf", hash_text(words));
-  if (!fs::exists(file)) {
-    fs::create_directories(file.parent_path());
-    write_moment(file, step_to(time, made.initial, called), made.initial, words);
+  made.dx = c.dx;
+  std::optional<saved_moment> kept = read_if_right(file, words);
+  if (!kept) {
+    make_folder(file.parent_path());
+    write_moment(file, step_to(time, made.initial, c.dx, called), made, words);
+    kept = read_moment(file);
   }
-  saved_moment saved = read_moment(file);
-  if (saved.settings != words) throw error(fmt::format("{} is not {}; delete it", file.string(), called));
+  saved_moment& saved = *kept;
   made.initial.particles = std::move(saved.what.particles);
   made.hash = saved.hash;
   if (c.H != 0) made.initial.H = c.H;

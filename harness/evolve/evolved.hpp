@@ -12,6 +12,9 @@ namespace pairsum::harness {
 /// is what `c` says. They are made once and kept in cache_folder(), by what they are made from.
 particles_of_request evolved(std::string_view case_name, const case_parameters& c, double time);
 
+/// Makes a folder and those above it; there may be one. Throws pairsum::error.
+void make_folder(const std::filesystem::path& folder);
+
 /// PAIRSUM_CACHE, or pairsum in XDG_CACHE_HOME or ~/.cache. Throws pairsum::error if none of them is set.
 std::filesystem::path cache_folder();
 

@@ -13,7 +13,7 @@ std::string take_particles(run_request& r) {
   if (r.particles.empty()) return "";
   const particles_of_request read = particles_of_files(r);
   if (!r.particles_hash.empty() && r.particles_hash != read.hash)
-    throw error(fmt::format("{} hold other particles than when the plan was made: {}, not {}",
+    throw error(fmt::format("other particles than when the plan was made are in {}: {}, not {}",
                             fmt::join(r.particles, ", "), read.hash, r.particles_hash));
   r.case_name = case_of_files;
   if (r.states == std::vector<std::string>{"rest"}) r.states = {std::string(state_of_files)};
@@ -33,7 +33,7 @@ particles_of_request initial_of(const run_request& r, double dx, std::string_vie
   }
   const case_parameters words{r.dim, dx, r.H, std::string(state), r.seed};
   if (const auto time = evolved_time(state)) return evolved(r.case_name, words, *time);
-  return {make_case(r.case_name, words)};
+  return {.initial = make_case(r.case_name, words), .dx = dx};
 }
 
 }  // namespace pairsum::harness

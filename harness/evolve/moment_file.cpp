@@ -11,13 +11,26 @@ namespace pairsum::harness {
 
 std::string why_no_moment_files() { return ""; }
 
-void write_moment(const std::filesystem::path& file, const moment& m, const initial_condition& domain,
+namespace {
+
+files::origin origin_of(const std::string& word) {
+  return word == "read"      ? files::origin::read
+         : word == "given"   ? files::origin::given
+         : word == "derived" ? files::origin::derived
+                             : files::origin::assumed;
+}
+
+}  // namespace
+
+void write_moment(const std::filesystem::path& file, const moment& m, const particles_of_request& start,
                   const std::string& settings) {
-  initial_condition now = domain;
+  initial_condition now = start.initial;
   now.particles = m.particles;
   files::snapshot about;
   about.time = m.t;
   about.step = m.step;
+  about.dx = start.dx;
+  for (const auto& [what, value, how, from] : start.facts) about.facts.push_back({what, value, origin_of(how), from});
   about.ids = m.ids;
   about.lost = m.lost;
   about.next_dt = m.next_dt;
@@ -35,25 +48,28 @@ saved_moment read_moment(const std::filesystem::path& file) {
           std::move(set.hash)};
 }
 
-void write_series(const std::filesystem::path& file, const std::vector<std::filesystem::path>& moments) {
+void write_series(const std::filesystem::path& file, const std::vector<moment_in_series>& moments) {
   std::vector<files::snapshot_file> series;
-  for (const auto& m : moments) {
-    const files::snapshot about = files::read_about(m.string());
-    series.push_back({m.string(), about.time, about.ids.size()});
-  }
+  for (const moment_in_series& m : moments) series.push_back({m.file.string(), m.t, m.particles});
   files::write_xmf(file.string(), series);
+}
+
+moment_in_series series_entry(const std::filesystem::path& file) {
+  const files::snapshot about = files::read_about(file.string());
+  return {file, about.time, about.ids.size()};
 }
 
 #else
 
 std::string why_no_moment_files() { return "this build writes no particle files: it was made without PAIRSUM_FILES"; }
-void write_moment(const std::filesystem::path&, const moment&, const initial_condition&, const std::string&) {
+void write_moment(const std::filesystem::path&, const moment&, const particles_of_request&, const std::string&) {
   throw error(why_no_moment_files());
 }
 saved_moment read_moment(const std::filesystem::path&) { throw error(why_no_moment_files()); }
-void write_series(const std::filesystem::path&, const std::vector<std::filesystem::path>&) {
+void write_series(const std::filesystem::path&, const std::vector<moment_in_series>&) {
   throw error(why_no_moment_files());
 }
+moment_in_series series_entry(const std::filesystem::path&) { throw error(why_no_moment_files()); }
 
 #endif
 }  // namespace pairsum::harness

@@ -50,7 +50,7 @@ files::hints hints_of(const run_request& r) {
     else if (word == "periodic")
       told.periodic = text;
     else if (word == "box")
-      told.box = parse_numbers(option, text);
+      told.box = parse_row(option, text);
     else if (word == "file_dim")
       told.dim = dimension(text);
     else if (word == "file_step")

@@ -16,7 +16,8 @@ void add_walls(registry& r) {
 
 }  // namespace
 
-const registry& simulate_registry() {
+const registry& simulate_registry(double spacing) {
+  wall_spacing = spacing;
   static const registry extended = [] {
     registry r = registry::instance();
     add_walls<1>(r);

@@ -3,7 +3,8 @@
 
 namespace pairsum::harness {
 
-/// A registry and ferrari09_hard: with wendland_c2, in double, in every dimension of this build.
-const registry& simulate_registry();
+/// The library's registry and ferrari09_hard: with wendland_c2, in double, in every dimension of this build.
+/// @param spacing of the particles, m; see wall_spacing
+const registry& simulate_registry(double spacing);
 
 }  // namespace pairsum::harness

@@ -47,6 +47,7 @@ class simulation {
   /// The state now, for a look: rows of particles that are lost are marked so.
   moment look() const;
 
+  double last_dt() const { return last_dt_; }  ///< s, of the step made last; 0 before any
   double t() const { return now_.t; }
   std::uint64_t steps() const { return now_.step; }
   std::uint64_t lost() const { return now_.lost + sum_->lost(); }

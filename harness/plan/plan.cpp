@@ -16,6 +16,7 @@
 #include <pairsum/schedule/block_shape.hpp>
 #include <pairsum/sum/grids.hpp>
 #include <pairsum/sum/registry.hpp>
+#include "harness/plan/levels.hpp"
 #include "harness/plan/variants.hpp"
 #include "harness/plan/words.hpp"
 #include "harness/rows/fields.hpp"
@@ -49,8 +50,8 @@ void check_request(const run_request& r, const registry& all) {
     for (const auto& s : r.states)
       if (!evolved_time(s)) check_word("state", s, case_state_words());
     if (!r.hints.empty())
-      throw error(
-          fmt::format("{} is about particles of files, of which --particles names none", r.hints.begin()->first));
+      throw error(fmt::format("{} is about particles of files, of which --particles names none",
+                              option_of(r.hints.begin()->first)));
   } else {
     for (const auto& s : r.states)
       check_word("state of particles of files", s, std::vector<std::string_view>{state_of_files, "perturbed"});

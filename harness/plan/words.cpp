@@ -80,6 +80,16 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
   return values;
 }
 
+std::vector<double> parse_row(const std::string& option, const std::string& text) {
+  std::vector<double> values;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    values.push_back(number<double>(option, text.substr(begin, comma - begin), "numbers like 1,1,0.5"));
+    begin = comma + 1;
+  }
+  return values;
+}
+
 std::optional<double> evolved_time(std::string_view state) {
   constexpr std::string_view word = "evolved:";
   if (!state.starts_with(word)) return std::nullopt;

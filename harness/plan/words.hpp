@@ -14,6 +14,9 @@ std::vector<int> parse_counts(const std::string& option, const std::string& text
 /// "0.02,0.03" -> {0.02, 0.03}; an error names the word that is no number.
 std::vector<double> parse_numbers(const std::string& option, const std::string& text);
 
+/// The same with all that is there, repeated or not: the numbers of a box.
+std::vector<double> parse_row(const std::string& option, const std::string& text);
+
 /// A whole number from 0 to 2^64 - 1.
 std::uint64_t parse_seed(const std::string& option, const std::string& text);
 

@@ -10,6 +10,7 @@
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/granularity.hpp>
 #include "harness/evolve/balance.hpp"
+#include "harness/evolve/evolved.hpp"
 #include "harness/evolve/initial_of.hpp"
 #include "harness/evolve/moment_file.hpp"
 #include "harness/evolve/simulate_registry.hpp"
@@ -59,7 +60,6 @@ simulate_request complete(simulate_request r) {
   if (r.rules.dt != 0) check_time("--dt", r.rules.dt);
   if (!(r.rules.cfl > 0 && r.rules.cfl <= 1))
     throw error(fmt::format("--cfl must lie between 0 and 1, is {}", r.rules.cfl));
-  if (const std::string why = why_no_moment_files(); !r.snapshots.empty() && !why.empty()) throw error(why);
   r.rules.drop = r.levels.outside == "drop";
   r.rules.integrator = r.levels.integrators.front();
   return r;
@@ -105,43 +105,87 @@ fs::path snapshot_file(const fs::path& folder, double t, double period) {
   return folder / fmt::format("snapshot_{:04}.hdf", std::lround(t / period));
 }
 
-std::vector<fs::path> snapshots_in(const fs::path& folder) {
-  std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string();
-        name.starts_with("snapshot_") && name.ends_with(".hdf"))
-      found.push_back(entry.path());
-  std::ranges::sort(found);
-  return found;
+/// Is it a name of snapshot_file()?
+bool is_snapshot(const std::string& name) {
+  constexpr std::string_view begin = "snapshot_", end = ".hdf";
+  if (!name.starts_with(begin) || !name.ends_with(end) || name.size() <= begin.size() + end.size()) return false;
+  return std::all_of(name.begin() + begin.size(), name.end() - end.size(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// What a simulation keeps in its folder.
+struct kept_files {
+  fs::path folder, checkpoint = folder / "checkpoint.hdf", log = folder / "log.csv", series = folder / "snapshots.xmf";
+
+  std::vector<fs::path> snapshots() const {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (is_snapshot(entry.path().filename().string())) found.push_back(entry.path());
+    return found;
+  }
+  /// Of another simulation, which --fresh gives up.
+  void remove() const {
+    for (const fs::path& file : snapshots()) fs::remove(file);
+    for (const fs::path& file : {checkpoint, log, series}) fs::remove(file);
+  }
+  /// Throws if something is there, and no checkpoint that says what.
+  void check_free() const {
+    if (fs::exists(log) || fs::exists(series) || !snapshots().empty())
+      throw error(
+          fmt::format("{} has files with the names of a simulation, but no checkpoint; name another folder, or "
+                      "--fresh, which removes them",
+                      folder.string()));
+  }
+};
+
+/// What the user did not say goes on as it was.
+void take_over(simulate_request& r, const std::string& settings) {
+  const nlohmann::json was = nlohmann::json::parse(settings, nullptr, false);
+  if (!was.is_object()) return;
+  if (r.every == 0) r.every = was.value("every", 0.0);
+  if (r.checkpoint == 0) r.checkpoint = was.value("checkpoint", 0.0);
 }
 
 }  // namespace
 
 simulate_result simulate(const simulate_request& asked, const moment_reader& at) {
-  const simulate_request r = complete(asked);
-  const registry& all = simulate_registry();
+  const bool keeps = !asked.snapshots.empty();
+  if (const std::string why = why_no_moment_files(); keeps && !why.empty()) throw error(why);
+  const kept_files files{asked.snapshots};
+  if (keeps) make_folder(files.folder);
+  if (keeps && asked.fresh) files.remove();
+  std::optional<saved_moment> saved;
+  if (keeps && fs::exists(files.checkpoint)) saved = read_moment(files.checkpoint);
+  if (keeps && !saved) files.check_free();
+  simulate_request r = asked;
+  if (saved) take_over(r, saved->settings);
+  r = complete(r);
+  const registry* all = &simulate_registry(0);
   simulate_result result;
-  result.what = only_point(r.levels, all);
+  result.what = only_point(r.levels, *all);
   const particles_of_request start = initial_of(r.levels, r.levels.dx.front(), r.levels.states.front());
+  all = &simulate_registry(start.dx);
   const initial_condition& domain = start.initial;
   const std::string settings = settings_of(r, start.hash);
-  const bool keeps = !r.snapshots.empty();
-  const fs::path checkpoint = r.snapshots / "checkpoint.hdf";
   moment from{domain.particles, {}, 0, 0, 0, 0};
   for (std::size_t i = 0; i < from.particles.size(); ++i) from.ids.push_back(static_cast<std::uint32_t>(i));
-  if (keeps) fs::create_directories(r.snapshots);
-  if (keeps && !r.fresh && fs::exists(checkpoint)) {
-    saved_moment saved = read_moment(checkpoint);
-    check_settings(r.snapshots, saved.settings, settings);
-    from = std::move(saved.what);
+  if (saved) {
+    check_settings(files.folder, saved->settings, settings);
+    from = std::move(saved->what);
     result.resumed_from = from.t;
+  } else if (keeps) {
+    write_moment(files.checkpoint, from, start, settings);  // from now on the folder says whose it is
   }
   std::optional<simulation_log> log;
-  if (keeps) log.emplace(r.snapshots / "log.csv", from.step);
+  if (keeps) log.emplace(files.log, from.step);
+  std::vector<moment_in_series> series;
+  if (keeps)
+    for (const fs::path& file : files.snapshots())
+      if (moment_in_series one = series_entry(file); one.t < from.t) series.push_back(std::move(one));
+  std::ranges::sort(series, {}, &moment_in_series::t);
 
   const thread_binding binding(r.binding);
   const point& p = result.what;
-  auto sum = all.make_summation(setup_of_point(p, domain));
+  auto sum = all->make_summation(setup_of_point(p, domain));
   const runtime kind = sum->traits().threads;
   const worker_team workers(kind, p.threads, &binding);
   const team t = workers.get().with(parse_granularity(p.granularity, kind));
@@ -150,20 +194,25 @@ simulate_result simulate(const simulate_request& asked, const moment_reader& at)
   simulation run(std::move(sum), domain, std::move(from), r.rules, t);
   progress shown(r.until);
 
+  const auto balance_at = [&](const moment& m) { return balance_of(m.particles, domain.gravity, domain.eos); };
   const auto record = [&](const moment& m) {
-    if (log) log->write(m, balance_of(m.particles, domain.gravity, domain.eos));
+    if (log) log->write(m, run.last_dt(), balance_at(m));
   };
+  std::optional<double> start_energy = log ? log->first_energy() : std::nullopt;
   /// A checkpoint comes last: what it goes on from is all there.
   const auto keep = [&](const moment& m, bool snapshot, bool ends) {
     shown.clear();
-    if (snapshot || ends) at(m, domain);
+    const balance b = balance_at(m);
+    if (!start_energy) start_energy = b.energy();
+    if (snapshot || ends) at(m, b, *start_energy);
     if (!keeps) return;
     log->flush();
     if (snapshot) {
-      write_moment(snapshot_file(r.snapshots, m.t, r.every), m, domain, settings);
-      write_series(r.snapshots / "snapshots.xmf", snapshots_in(r.snapshots));
+      series.push_back({snapshot_file(files.folder, m.t, r.every), m.t, m.particles.size()});
+      write_moment(series.back().file, m, start, settings);
+      write_series(files.series, series);
     }
-    write_moment(checkpoint, m, domain, settings);
+    write_moment(files.checkpoint, m, start, settings);
   };
   if (first_step == 0) {
     const moment m = run.save();

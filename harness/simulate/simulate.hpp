@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "harness/evolve/balance.hpp"
 #include "harness/evolve/simulation.hpp"
 #include "harness/plan/plan.hpp"
 
@@ -13,8 +14,8 @@ struct simulate_request {
   run_request levels;  ///< one of each
   step_rules rules;
   double until = 0.5;               ///< s
-  double every = 0;                 ///< s between snapshots; 0: until / 20
-  double checkpoint = 0;            ///< s between checkpoints besides the snapshots; 0: none
+  double every = 0;                 ///< s between snapshots; 0: as before in the folder, else until / 20
+  double checkpoint = 0;            ///< s between checkpoints besides the snapshots; 0: as before, else none
   double log = 0;                   ///< s between rows of the log; 0: until / 200
   std::filesystem::path snapshots;  ///< folder of snapshots, log and checkpoint; empty: nothing is kept
   bool fresh = false;               ///< start over where the folder holds a simulation
@@ -31,8 +32,8 @@ struct simulate_result {
   bool interrupted = false;
 };
 
-/// Called with the state at the start, at every snapshot and at the end.
-using moment_reader = std::function<void(const moment&, const initial_condition&)>;
+/// Called with the state, its balance and the energy at t = 0 (J), at the start, at every snapshot and at the end.
+using moment_reader = std::function<void(const moment&, const balance&, double)>;
 
 /// Throws pairsum::error for a request that makes no sense, a folder of another simulation, and states that are not
 /// finite, fly apart or lose what they may not. SIGINT and SIGTERM end it after the step under way; then it goes on

@@ -4,7 +4,7 @@ import json
 import shlex
 
 import pytest
-from conftest import refused
+from conftest import BIN, refused
 
 h5py = pytest.importorskip("h5py", reason="python3-h5py is not installed")
 SMALL = ["--M", "3", "--threads", "1", "--steps", "1"]
@@ -26,7 +26,7 @@ def test_run_measures_them_and_says_where_they_are_from(pairsum, file, tmp_path)
     words = ["run", "--particles", file, *SMALL, "--rounds", "1", "--out", "rows.jsonl"]
     done = pairsum(*words)
     assert done.returncode == 0, done.stderr
-    assert "own water.hdf" in done.stdout and "assumed" in done.stdout or "read" in done.stdout
+    assert "own water.hdf  read  hdf5, gadget" in done.stdout
     rows = rows_of(tmp_path / "rows.jsonl")
     (particles,) = [r for r in rows if r["kind"] == "particles"]
     samples = [r for r in rows if r["kind"] == "sample"]
@@ -75,6 +75,38 @@ def test_verify_and_tune_take_them(pairsum, file, tmp_path):
     assert done.returncode == 0, done.stderr
 
 
+def test_numbers_of_a_box_may_be_the_same(pairsum, tmp_path):
+    (tmp_path / "two.csv").write_text("x,y,z,rho,m\n0.1,0.5,0.5,1,1\n0.9,0.5,0.5,1,1\n0.5,0.1,0.9,1,1\n")
+    for box in ("1,1,1", "0,0,0,1,1,1"):
+        done = pairsum("info", "two.csv", "--H", "0.25", "--periodic", "all", "--box", box, "--json")
+        assert done.returncode == 0, done.stderr
+        told = json.loads(done.stdout)
+        assert told["box"] == {"low": [0, 0, 0], "high": [1, 1, 1]} and told["pairs"] == 1
+
+
+def test_a_profile_takes_other_words(pairsum, file, tmp_path):
+    done = pairsum("tune", "--particles", file, "--backend", "naive", "--grid", "compact_grid", "--threads", "1", "--budget", "2")
+    assert done.returncode == 0, done.stderr
+    done = pairsum("run", "--profile", "tune.profile.json", "--H", "0.2", "--rounds", "1", "--out", "wider.jsonl")
+    assert done.returncode == 0, done.stderr
+    assert {r["point"]["H"] for r in rows_of(tmp_path / "wider.jsonl") if r["kind"] == "sample"} == {0.2}
+
+
+def test_states_of_files(pairsum, file, tmp_path):
+    done = pairsum("run", "--particles", file, "--state", "read,perturbed", *SMALL, "--rounds", "1", "--out", "states.jsonl")
+    assert done.returncode == 0, done.stderr
+    assert {r["point"]["state"] for r in rows_of(tmp_path / "states.jsonl") if r["kind"] == "sample"} == {"read", "perturbed"}
+    assert refused(pairsum("run", "--particles", file, "--state", "evolved:1", *SMALL), "read, perturbed")
+
+
+def test_bench_takes_them(pairsum, file):
+    if not (BIN / "pairsum_bench").exists():
+        pytest.skip("no pairsum_bench in this build")
+    done = pairsum("--particles", file, "--threads", "1", "--grid", "compact_grid", "--benchmark_filter=^symmetric/",
+                   "--benchmark_min_time=0.001", program="pairsum_bench")
+    assert done.returncode == 0 and "symmetric/file/compact_grid/threads:1" in done.stdout, done.stderr
+
+
 def test_simulate_takes_them(pairsum, file, tmp_path):
     done = pairsum("simulate", "--particles", file, "--until", "0.01", "--every", "0.01", "--threads", "1", "--snapshots", "more")
     assert done.returncode == 0, done.stderr
@@ -98,7 +130,7 @@ def test_a_file_that_changes_is_noticed(pairsum, file, tmp_path):
     (["--particles", "FILE", "--periodic", "x,q"], ["--periodic", "x,q"]),
     (["--particles", "FILE", "--support", "wide"], ["--support", "wide"]),
     (["--particles", "FILE", "--column", "x"], ["--column", "x=Points:0"]),
-    (["--periodic", "x"], ["periodic", "--particles"]),
+    (["--periodic", "x"], ["--periodic", "--particles"]),
 ])
 def test_refusals(pairsum, file, words, says):
     assert refused(pairsum("run", *[file if w == "FILE" else w for w in words], *SMALL), *says)

@@ -89,6 +89,33 @@ def test_goes_further_when_it_is_told_to(pairsum, kept):
     assert (kept / "snapshot_0004.hdf").exists()
 
 
+def test_a_longer_until_goes_on_at_the_same_pace(pairsum, tmp_path):
+    given = ["simulate", "--dx", "0.08", "--threads", "1", "--snapshots", "s"]
+    first = pairsum(*given, "--until", "0.02")
+    done = pairsum(*given, "--until", "0.04")
+    assert done.returncode == 0 and "went on from t = 0.02" in done.stdout, done.stderr
+    assert len(list((tmp_path / "s").glob("snapshot_*.hdf"))) == 41  # every 1 ms as before
+    start = float(first.stdout.splitlines()[1].split()[2])
+    t, _, energy, change = done.stdout.splitlines()[1].split()[:4]
+    assert t == "0.021" and float(change) == pytest.approx(100 * (float(energy) / start - 1), abs=0.06)
+
+
+def test_fresh_removes_what_is_there_and_nothing_else(pairsum, kept):
+    (kept / "snapshot_notes.hdf").write_text("mine")
+    assert pairsum("simulate", *words(until=0.02), "--fresh", "--snapshots", kept).returncode == 0
+    assert sorted(p.name for p in kept.glob("snap*")) == ["snapshot_0000.hdf", "snapshot_0001.hdf", "snapshot_notes.hdf",
+                                                          "snapshots.xmf"]
+
+
+def test_files_of_others_are_not_written_over(pairsum, tmp_path):
+    (tmp_path / "theirs").mkdir()
+    (tmp_path / "theirs/log.csv").write_text("precious\n")
+    assert refused(pairsum("simulate", *WORDS, "--snapshots", "theirs"), "theirs", "--fresh")
+    assert (tmp_path / "theirs/log.csv").read_text() == "precious\n"
+    (tmp_path / "file").write_text("")
+    assert refused(pairsum("simulate", *WORDS, "--snapshots", "file/s"), "cannot make the folder")
+
+
 def test_another_simulation_is_not_gone_on_with(pairsum, kept):
     assert refused(pairsum("simulate", *WORDS, "--cfl", "0.1", "--snapshots", kept), "cfl 0.2", "0.1", "--fresh")
     assert pairsum("simulate", *WORDS, "--cfl", "0.1", "--fresh", "--snapshots", kept).returncode == 0

@@ -36,7 +36,7 @@ struct run_of {
     s.backend = backend;
     s.interaction = interaction;
     s.grid = "compact_grid";
-    return simulate_registry().make_summation(s);
+    return simulate_registry(0).make_summation(s);
   }
   moment go_to(double t) {
     while (steps.t() < t) steps.step(t);
