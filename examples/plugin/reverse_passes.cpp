@@ -22,7 +22,7 @@ template <int D, class R> class reverse_blocks final : public schedule<D, R> {
                                          .colours = {2, 4, 8}};
 
   void prepare(const P& p, const team& t) override { blocks_.build(p.cells(), t); }
-  unsigned colours(const P&) const override { return coloured_blocks<D>::colours; }
+  unsigned colours(const P&) const override { return blocks_.colours(); }
   std::size_t size(const P&, unsigned pass) const override { return blocks_of(pass).size(); }
   void unit(const P& p, unsigned pass, std::size_t k, int thread) override {
     const auto& blocks = blocks_of(pass);
@@ -30,7 +30,7 @@ template <int D, class R> class reverse_blocks final : public schedule<D, R> {
   }
 
  private:
-  const column<block<D>>& blocks_of(unsigned pass) const { return blocks_[coloured_blocks<D>::colours - 1 - pass]; }
+  const column<block<D>>& blocks_of(unsigned pass) const { return blocks_[blocks_.colours() - 1 - pass]; }
 
   coloured_blocks<D> blocks_;
 };
