@@ -87,6 +87,15 @@ def test_xyz_without_a_box_and_with_one_that_is_tilted(tmp_path, converted, refu
     assert 'the number of particles should stand where the file has "two"' in refused(path)
 
 
+@pytest.mark.parametrize("pbc, periodic", [("True False True", [1, 0, 1]), ("T F T", [1, 0, 1]), ("1 0 1", [1, 0, 1]),
+                                           ("true false TRUE", [1, 0, 1]), ("False False False", [0, 0, 0]),
+                                           ("rue T1 u", [0, 0, 0])])
+def test_periodic_axes_of_xyz(tmp_path, converted, pbc, periodic):
+    path = tmp_path / "a.xyz"
+    path.write_text(f'1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3 pbc="{pbc}"\n0 0 0\n')
+    assert converted(path)[1]["Header"].attrs["Periodic"].tolist() == periodic
+
+
 GRO = "made\n2\n    1SOL     OW    1   0.100   0.200   0.300  0.1000  0.2000  0.3000\n" \
       "    1SOL     OW    2   1.100   1.200   1.300  0.4000  0.5000  0.6000\n{box}\n"
 

@@ -30,7 +30,7 @@ def read(path: pathlib.Path, frame: int) -> list[Source]:
             source.box_size = straight(path, np.array(said["lattice"].split(), dtype=float).reshape(3, 3))
             source.box_low = np.array(said.get("origin", "0 0 0").split(), dtype=float)
             flags = said.get("pbc", "").split()
-            source.periodic = tuple(flag in "T1true" for flag in flags) if flags else (True,) * 3
+            source.periodic = tuple(flag.lower() in ("t", "true", "1") for flag in flags) if flags else (True,) * 3
             source.periodic_from = "" if flags else "usual where a file has a Lattice and no pbc"
         if "time" in said:
             source.time = float(said["time"])
