@@ -115,6 +115,26 @@ def test_gro_stays_in_nm(tmp_path, converted, refused):
     assert "a.gro cannot be read as gro: " in refused(path)
 
 
+def test_one_frame_of_a_gro_is_taken(tmp_path, converted, refused):
+    pytest.importorskip("MDAnalysis", reason="python3-mdanalysis is not installed")
+    path = tmp_path / "many.gro"
+    first = GRO.format(box="   2.00000   3.00000   4.00000")
+    last = "made t= 2\n1\n    1SOL     OW    1   0.500   0.200   0.300\n   5.00000   3.00000   4.00000\n\n"
+    path.write_text(first + first.replace("0.100   0.200", "0.400   0.200") + last)
+    said, file = converted(path)
+    assert file["PartType0/Coordinates"][:].tolist() == np.float32([[0.5, 0.2, 0.3]]).tolist()
+    assert "frame 2 of 0 to 2" in said and file["Header"].attrs["BoxSize"].tolist() == [5, 3, 4]
+    for number, x in ((0, 0.1), (1, 0.4), (-2, 0.4)):
+        assert converted("--frame", number, path)[1]["PartType0/Coordinates"][0, 0] == np.float32(x)
+    assert "has 3 frames, so no frame 7" in refused("--frame", 7, path)
+    path.write_text(first + first[:-40])
+    assert "many.gro cannot be read as gro: frame 1 ends before its 2 particles and its box" in refused(path)
+    path.write_text(first + "made\ntwo\n")
+    assert 'the number of particles should stand where the file has "two"' in refused(path)
+    path.write_text("\n\n")
+    assert "many.gro is empty" in refused(path)
+
+
 def test_gsd_is_centred_at_0_and_names_types(tmp_path, converted, refused):
     hoomd = pytest.importorskip("gsd.hoomd", reason="python3-gsd is not installed")
     path = tmp_path / "a.gsd"
