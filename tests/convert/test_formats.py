@@ -88,12 +88,20 @@ def test_xyz_without_a_box_and_with_one_that_is_tilted(tmp_path, converted, refu
 
 
 @pytest.mark.parametrize("pbc, periodic", [("True False True", [1, 0, 1]), ("T F T", [1, 0, 1]), ("1 0 1", [1, 0, 1]),
-                                           ("true false TRUE", [1, 0, 1]), ("False False False", [0, 0, 0]),
-                                           ("rue T1 u", [0, 0, 0])])
+                                           ("true false TRUE", [1, 0, 1]), ("False False False", [0, 0, 0])])
 def test_periodic_axes_of_xyz(tmp_path, converted, pbc, periodic):
     path = tmp_path / "a.xyz"
     path.write_text(f'1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3 pbc="{pbc}"\n0 0 0\n')
     assert converted(path)[1]["Header"].attrs["Periodic"].tolist() == periodic
+
+
+@pytest.mark.parametrize("words, says", [('pbc="T F"', 'pbc is "T F", should be three of T and F'),
+                                         ('pbc="x y z"', 'pbc is "x y z", should be three of T and F'),
+                                         ('Origin="0 0"', "cannot be read as extended XYZ: ")])
+def test_a_box_of_xyz_that_is_not_of_three_axes_is_refused(tmp_path, refused, words, says):
+    path = tmp_path / "a.xyz"
+    path.write_text(f'1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3 {words}\n0 0 0\n')
+    assert says in refused(path)
 
 
 GRO = "made\n2\n    1SOL     OW    1   0.100   0.200   0.300  0.1000  0.2000  0.3000\n" \
