@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view positions =
     "@,pos#,position#,positions#,point#,points#,coord#,coords#,coordinate#,coordinates#,@coordinate";
-constexpr std::string_view velocities = "v@,vel#,velocity#,velocities#,@velocity";
+constexpr std::string_view velocities = "v@,vel#,velocity#,velocities#,@velocity,~";
 
 /// The name in small letters and digits, without its unit: "posx" of "Pos.x [m]". An axis in parentheses is no unit.
 std::string plain(std::string_view name) {
@@ -31,8 +31,9 @@ std::string plain(std::string_view name) {
 
 bool spells(std::string_view pattern, std::string_view word, int axis) {
   return std::ranges::equal(pattern, word, [&](char p, char c) {
-    const char letter = axis < 0 ? p : "xyz"[axis], digit = axis < 0 ? p : "012"[axis];
-    return p == '#' ? c == letter || c == digit : c == (p == '@' ? letter : p);
+    if (axis < 0) return p == c;
+    const char letter = "xyz"[axis], digit = "012"[axis], of_velocity = "uvw"[axis];
+    return p == '#' ? c == letter || c == digit : c == (p == '@' ? letter : p == '~' ? of_velocity : p);
   });
 }
 
@@ -43,9 +44,9 @@ const std::vector<csv_quantity>& csv_quantities() {
       {"x", positions, "m", 0},
       {"y", positions, "m", 1},
       {"z", positions, "m", 2},
-      {"vx", "v@,vel#,velocity#,velocities#,@velocity,u", "m/s", 0},
-      {"vy", "v@,vel#,velocity#,velocities#,@velocity,v", "m/s", 1},
-      {"vz", "v@,vel#,velocity#,velocities#,@velocity,w", "m/s", 2},
+      {"vx", velocities, "m/s", 0},
+      {"vy", velocities, "m/s", 1},
+      {"vz", velocities, "m/s", 2},
       {"rho", "rho,rhop,density,densities,dens", "kg/m^3,kg/m3"},
       {"m", "m,mass,masses", "kg"},
       {"h", "h,hsml,hvar,smoothinglength,smoothinglengths", "m"},

@@ -11,7 +11,8 @@ namespace pairsum::files {
 /// What a column can hold, and how names say so.
 struct csv_quantity {
   std::string_view word;  ///< of --column
-  /// Without case, blanks, signs and unit. Where there is an axis, # stands for its letter or number, @ for its letter.
+  /// Without case, blanks, signs and unit. Where there is an axis, # stands for its letter or number, @ for its letter,
+  /// ~ for the letter of its velocity (u, v, w).
   std::string_view spellings;
   std::string_view units;  ///< pairsum's, as names have them
   int axis = -1;

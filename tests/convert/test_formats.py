@@ -87,6 +87,23 @@ def test_xyz_without_a_box_and_with_one_that_is_tilted(tmp_path, converted, refu
     assert 'the number of particles should stand where the file has "two"' in refused(path)
 
 
+@pytest.mark.parametrize("pbc, periodic", [("True False True", [1, 0, 1]), ("T F T", [1, 0, 1]), ("1 0 1", [1, 0, 1]),
+                                           ("true false TRUE", [1, 0, 1]), ("False False False", [0, 0, 0])])
+def test_periodic_axes_of_xyz(tmp_path, converted, pbc, periodic):
+    path = tmp_path / "a.xyz"
+    path.write_text(f'1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3 pbc="{pbc}"\n0 0 0\n')
+    assert converted(path)[1]["Header"].attrs["Periodic"].tolist() == periodic
+
+
+@pytest.mark.parametrize("words, says", [('pbc="T F"', 'pbc is "T F", should be three of T and F'),
+                                         ('pbc="x y z"', 'pbc is "x y z", should be three of T and F'),
+                                         ('Origin="0 0"', "cannot be read as extended XYZ: ")])
+def test_a_box_of_xyz_that_is_not_of_three_axes_is_refused(tmp_path, refused, words, says):
+    path = tmp_path / "a.xyz"
+    path.write_text(f'1\nLattice="1 0 0 0 1 0 0 0 1" Properties=pos:R:3 {words}\n0 0 0\n')
+    assert says in refused(path)
+
+
 GRO = "made\n2\n    1SOL     OW    1   0.100   0.200   0.300  0.1000  0.2000  0.3000\n" \
       "    1SOL     OW    2   1.100   1.200   1.300  0.4000  0.5000  0.6000\n{box}\n"
 
@@ -104,6 +121,26 @@ def test_gro_stays_in_nm(tmp_path, converted, refused):
     assert "triclinic box" in refused(path)
     path.write_text("made\n2\nnothing\n")
     assert "a.gro cannot be read as gro: " in refused(path)
+
+
+def test_one_frame_of_a_gro_is_taken(tmp_path, converted, refused):
+    pytest.importorskip("MDAnalysis", reason="python3-mdanalysis is not installed")
+    path = tmp_path / "many.gro"
+    first = GRO.format(box="   2.00000   3.00000   4.00000")
+    last = "made t= 2\n1\n    1SOL     OW    1   0.500   0.200   0.300\n   5.00000   3.00000   4.00000\n\n"
+    path.write_text(first + first.replace("0.100   0.200", "0.400   0.200") + last)
+    said, file = converted(path)
+    assert file["PartType0/Coordinates"][:].tolist() == np.float32([[0.5, 0.2, 0.3]]).tolist()
+    assert "frame 2 of 0 to 2" in said and file["Header"].attrs["BoxSize"].tolist() == [5, 3, 4]
+    for number, x in ((0, 0.1), (1, 0.4), (-2, 0.4)):
+        assert converted("--frame", number, path)[1]["PartType0/Coordinates"][0, 0] == np.float32(x)
+    assert "has 3 frames, so no frame 7" in refused("--frame", 7, path)
+    path.write_text(first + first[:-40])
+    assert "many.gro cannot be read as gro: frame 1 ends before its 2 particles and its box" in refused(path)
+    path.write_text(first + "made\ntwo\n")
+    assert 'the number of particles should stand where the file has "two"' in refused(path)
+    path.write_text("\n\n")
+    assert "many.gro is empty" in refused(path)
 
 
 def test_gsd_is_centred_at_0_and_names_types(tmp_path, converted, refused):

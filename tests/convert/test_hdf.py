@@ -72,11 +72,13 @@ def test_vtk_opens_it(xyz, converted):
     assert vtk_to_numpy(data.GetArray("Kind")).tolist() == [0, 1, 0]
 
 
-def test_what_h_means_is_said(tmp_path, converted):
+@pytest.mark.parametrize("name, means", [("h", b"h"), ("hsml", b"h"), ("Hvar", b"h"), ("smoothing_length", b"h"),
+                                         ("support_radius", b"support")])
+def test_what_h_means_is_said(tmp_path, converted, name, means):
     path = tmp_path / "a.xyz"
-    path.write_text("1\nProperties=pos:R:3:support_radius:R:1\n0 0 0 0.3\n")
+    path.write_text(f"1\nProperties=pos:R:3:{name}:R:1\n0 0 0 0.3\n")
     _, file = converted(path)
-    assert file["Header"].attrs["SmoothingLengthIs"] == b"support"
+    assert file["Header"].attrs["SmoothingLengthIs"] == means
     assert file["PartType0/SmoothingLength"][:].tolist() == [0.3]
 
 

@@ -92,6 +92,8 @@ TEST(csv, two_axes_are_2d) {
   EXPECT_EQ(flat.v[1], numbers{5});
   EXPECT_TRUE(flat.v[2].empty());
   EXPECT_EQ(read_bytes("xy.csv", "x,y,u,v,w\n1,2,3,4,5\n").v[1], numbers{4});
+  EXPECT_EQ(read_bytes("xyz.csv", "x,y,z,w,v,u\n1,2,3,4,5,6\n").v,
+            (std::array<std::vector<double>, 3>{numbers{6}, numbers{5}, numbers{4}}));
 }
 
 TEST(csv, columns_by_option_come_before_known_words) {

@@ -28,7 +28,7 @@ def read(path: pathlib.Path, frame: int = -1, trust_pickles: bool = False) -> li
     if head.startswith(b"PK") and suffix == ".npz":
         return pysph.read(path, trust_pickles)
     if suffix == ".gro":
-        return gro.read(path)
+        return gro.read(path, frame)
     if suffix in (".xyz", ".extxyz"):
         return xyz.read(path, frame)
     raise ResultsError(f"{path} is no particle file that is known here: {_KNOWN}")

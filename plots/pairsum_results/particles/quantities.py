@@ -13,8 +13,8 @@ _VECTORS = {"Coordinates": (["points", "position", "positions", "coordinates", "
             "Velocities": (["velocity", "velocities", "vel", "velo", "v"], [("u", "v", "w")])}
 _SCALARS = {"Density": ["density", "densities", "rho", "rhop", "hydrodynamicdensity", "massdensity"],
             "Masses": ["mass", "masses", "m", "particlemass"],
-            "SmoothingLength": ["smoothinglength", "smoothinglengths", "h"],
-            "SupportRadius": ["supportradius", "hsml"],
+            "SmoothingLength": ["smoothinglength", "smoothinglengths", "h", "hsml", "hvar"],
+            "SupportRadius": ["supportradius"],
             "ParticleIDs": ["id", "ids", "idp", "particleid", "particleids", "originalid", "index", "gid"]}
 #: What `--column` takes.
 WORDS = {"x": ("Coordinates", 0), "y": ("Coordinates", 1), "z": ("Coordinates", 2), "vx": ("Velocities", 0),

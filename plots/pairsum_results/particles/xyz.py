@@ -28,10 +28,10 @@ def read(path: pathlib.Path, frame: int) -> list[Source]:
                         frame=frame_words(number, len(heads)))
         if "lattice" in said:
             source.box_size = straight(path, np.array(said["lattice"].split(), dtype=float).reshape(3, 3))
-            source.box_low = np.array(said.get("origin", "0 0 0").split(), dtype=float)
-            flags = said.get("pbc", "").split()
-            source.periodic = tuple(flag in "T1true" for flag in flags) if flags else (True,) * 3
-            source.periodic_from = "" if flags else "usual where a file has a Lattice and no pbc"
+            source.box_low = np.array(said.get("origin", "0 0 0").split(), dtype=float).reshape(3)
+            source.periodic, source.periodic_from = (True,) * 3, "usual where a file has a Lattice and no pbc"
+            if "pbc" in said:
+                source.periodic, source.periodic_from = _flags(path, said["pbc"]), ""
         if "time" in said:
             source.time = float(said["time"])
         return [source]
@@ -47,6 +47,14 @@ def _heads(path: pathlib.Path, stream):
                                f'"{line.decode("utf-8", "replace")}"') from None
         comment = stream.readline().decode("utf-8", "replace")
         yield rows, comment, frames.skip(stream, rows)
+
+
+def _flags(path: pathlib.Path, text: str) -> tuple[bool, ...]:
+    """Three flags, as programs write them: "T F T", "True False True", "1 0 1"."""
+    flags = text.lower().split()
+    if len(flags) != 3 or not set(flags) <= {"t", "true", "1", "f", "false", "0"}:
+        raise ResultsError(f'{path}: pbc is "{text}", should be three of T and F')
+    return tuple(flag in ("t", "true", "1") for flag in flags)
 
 
 def _widths(properties: str) -> dict[str, int]:
