@@ -420,6 +420,7 @@ file_content read_here(const std::string& path, const hints& told) {
     for (const std::string& part : siblings(path, parts->front())) {
       files.push_back(std::make_unique<hdf5_file>(part));
       for (particle_group& g : reader.groups_of(*files.back())) groups.push_back(std::move(g));
+      reader.content.parts.push_back(part);
     }
     reader.content.facts.push_back({"files of the snapshot", number_text(parts->front()), origin::read, "the header"});
   } else {

@@ -49,6 +49,7 @@ struct file_content {
   std::optional<axes> periodic;
   bool periodic_by_habit = false;  ///< no word of the file says so, but programs of its dialect do it
   std::vector<fact> facts;         ///< what else a reader should be told
+  std::vector<std::string> parts;  ///< all files of a snapshot of several, which were read with this one
 };
 
 }  // namespace pairsum::files

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <filesystem>
+#include <map>
+#include <set>
 #include <utility>
 
 #include <pairsum/core/error.hpp>
@@ -29,6 +32,13 @@ std::optional<particle_kind> kind_of_path(std::string& path) {
   return {};
 }
 
+/// The same for all paths that lead to a file.
+std::string name_of(const std::string& path) {
+  std::error_code problem;
+  const std::filesystem::path name = std::filesystem::canonical(path, problem);
+  return problem ? path : name.string();
+}
+
 /// Reads a file and checks that its columns belong together.
 one_file read_one(const std::string& path, const hints& told) {
   one_file f{path, read_file(path, told), 0};
@@ -51,9 +61,22 @@ read_set read_particles(const std::vector<std::string>& paths, const hints& told
   set_in_making s{told};
   std::vector<std::optional<particle_kind>> by_path;
   std::size_t total = 0;
+  std::set<std::string> given;
+  std::map<std::string, std::size_t> part_of;  // the parts of snapshots, and by which of the files they were read
   for (std::string path : paths) {
-    by_path.push_back(kind_of_path(path));
+    const auto kind = kind_of_path(path);
+    const std::string name = name_of(path);
+    if (!given.insert(name).second) throw error(path + " is given twice; each file of a set is read once");
+    if (const auto whole = part_of.find(name); whole != part_of.end()) {
+      const std::string& other = s.files[whole->second].path;
+      if (by_path[whole->second] != kind)
+        throw error(path + " and " + other + " are parts of one snapshot, and should both be fluid or both boundary");
+      s.tell("file", path, origin::read, "a part of the snapshot that " + other + " belongs to, read with it");
+      continue;
+    }
+    by_path.push_back(kind);
     s.files.push_back(read_one(path, told));
+    for (const std::string& part : s.files.back().content.parts) part_of[name_of(part)] = s.files.size() - 1;
     const one_file& f = s.files.back();
     total += f.rows;
     s.tell("file", path, origin::read,

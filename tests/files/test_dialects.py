@@ -145,9 +145,21 @@ def test_a_snapshot_of_several_files(tmp_path):
             setattr(part, name, getattr(p, name)[100 * k:100 * k + 100])
         gadget(tmp_path / f"snap.{k}.hdf5", part, header={"NumFilesPerSnapshot": 3})
     same(tmp_path / "snap.1.hdf5", tmp_path, p)
+    parts = [tmp_path / f"snap.{k}.hdf5" for k in range(3)]
+    all_parts = read(*parts)
+    assert all_parts.set["hash"] == read(parts[1]).set["hash"], "a file that several parts name is read once"
+    assert "should both be fluid or both boundary" in read(f"{parts[0]}:fluid", f"{parts[1]}:boundary").error
     (tmp_path / "snap.2.hdf5").rename(tmp_path / "away.hdf5")
     assert "snap.2.hdf5 cannot be read" in read(tmp_path / "snap.0.hdf5").error
     assert "its name has no number" in read(tmp_path / "away.hdf5").error
+
+
+def test_a_file_is_given_once(tmp_path, particles):
+    path = gadget(tmp_path / "a.hdf5", particles)
+    (tmp_path / "link.hdf5").symlink_to(path)
+    for other in (path, tmp_path / "." / "x" / ".." / "a.hdf5", tmp_path / "link.hdf5", f"{path}:fluid"):
+        (tmp_path / "x").mkdir(exist_ok=True)
+        assert "is given twice" in read(path, other).error, other
 
 
 def pysph(path, groups, constant_z=None):

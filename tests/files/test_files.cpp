@@ -67,6 +67,7 @@ TEST(in_child, hands_over_every_member) {
   told.periodic = axes{{true, false, true}};
   told.periodic_by_habit = true;
   told.facts = {{"what", "value", origin::derived, "from"}};
+  told.parts = {"a.0", "a.1"};
   const file_content got = in_two_s([&] { return told; });
   EXPECT_EQ(got.format + got.dialect, "fd");
   EXPECT_EQ(got.x, told.x);
@@ -85,6 +86,7 @@ TEST(in_child, hands_over_every_member) {
   EXPECT_EQ(got.box_high, told.box_high);
   EXPECT_EQ(got.periodic, told.periodic);
   EXPECT_TRUE(got.periodic_by_habit);
+  EXPECT_EQ(got.parts, told.parts);
   ASSERT_EQ(got.facts.size(), 1u);
   EXPECT_EQ(got.facts[0].what + got.facts[0].value + got.facts[0].from, "whatvaluefrom");
   EXPECT_EQ(got.facts[0].how, origin::derived);
