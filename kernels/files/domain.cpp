@@ -69,21 +69,35 @@ void read_box(set_in_making& s, std::vector<double>& low, std::vector<double>& h
     s.tell("box", box_text(low, high), origin::given, "--box");
     return;
   }
-  for (const one_file& f : s.files)
-    if (!f.content.box_low.empty()) {
-      const auto a = of_axes(s, f.content.box_low), b = of_axes(s, f.content.box_high);
-      if (!a || !b) throw error(f.path + ": the box has fewer axes than particles; --box says it");
+  const one_file* first = nullptr;
+  for (const one_file& f : s.files) {
+    if (f.content.box_low.empty()) continue;
+    const auto a = of_axes(s, f.content.box_low), b = of_axes(s, f.content.box_high);
+    if (!a || !b) throw error(f.path + ": the box has fewer axes than particles; --box says it");
+    if (!std::ranges::equal(*a, *b, std::ranges::not_equal_to())) continue;  // a box without edges is none
+    if (!first) {
+      first = &f;
       low = *a;
       high = *b;
-      bool flat = false;
-      for (std::size_t d = 0; d < low.size(); ++d) flat = flat || low[d] == high[d];
-      if (!flat) {
-        s.tell("box", box_text(low, high), origin::read, "the header of " + f.path);
-        return;
-      }
-      low.clear();  // a box without edges is none
-      high.clear();
+      s.tell("box", box_text(low, high), origin::read, "the header of " + f.path);
+    } else if (low != *a || high != *b) {
+      throw error(f.path + " has the box " + box_text(*a, *b) + ", but " + first->path + " has " + box_text(low, high) +
+                  "; files of a set should have one, and --box says which");
     }
+  }
+}
+
+/// Along which axes files that have a box say that it is periodic.
+std::optional<axes> read_periodic(const set_in_making& s) {
+  const one_file* first = nullptr;
+  for (const one_file& f : s.files) {
+    if (f.content.box_low.empty() || !f.content.periodic) continue;
+    if (first && *first->content.periodic != *f.content.periodic)
+      throw error(f.path + " is periodic along " + f.content.periodic->text() + ", but " + first->path + " along " +
+                  first->content.periodic->text() + "; --periodic says what the set is");
+    if (!first) first = &f;
+  }
+  return first ? first->content.periodic : std::nullopt;
 }
 
 }  // namespace
@@ -94,7 +108,7 @@ void choose_domain(set_in_making& s) {
   std::vector<double>&low = made.omega_low, &high = made.omega_high;
   read_box(s, low, high);
   const bool boxed = !low.empty();
-  const auto said = s.first([](const file_content& c) { return c.periodic; });
+  const auto said = s.told.periodic ? std::nullopt : read_periodic(s);
   axes periodic;
   if (s.told.periodic) {
     periodic = periodic_of(s, *s.told.periodic);

@@ -297,6 +297,20 @@ def test_several_files_and_their_kinds(tmp_path):
     assert "no particle is fluid" in read(f"{a}:boundary").error
 
 
+def test_files_of_a_set_have_one_box(tmp_path):
+    fluid, wall = Particles(100), Particles(80, 2)
+    a = gadget(tmp_path / "a.hdf5", fluid)
+    b = gadget(tmp_path / "b.hdf5", wall, header={"BoxSize": 2.0})
+    error = read(a, f"{b}:boundary").error
+    assert error.startswith(f"{b} has the box [0, 2] x") and f"{a} has [0, 1] x" in error and "--box" in error
+    assert read(a, f"{b}:boundary", box="3,3,3").set["high"] == [3, 3, 3]
+    b = gadget(tmp_path / "b.hdf5", wall, header={"Periodic": [1, 0, 0]})
+    error = read(a, f"{b}:boundary").error
+    assert "is periodic along x, but" in error and "--periodic" in error
+    assert read(a, f"{b}:boundary", periodic="none").code == 0
+    assert read(a, f"{gadget(b, wall, header={'BoxSize': 0.0})}:boundary").set["high"] == [1, 1, 1]
+
+
 def test_box_by_option(tmp_path, particles):
     path = gadget(tmp_path / "a.hdf5", particles, header={"BoxSize": 0.0})
     result = read(path)
