@@ -13,7 +13,7 @@ namespace {
 
 constexpr double widest_h = 1.5;  ///< largest h over smallest that one H for all may stand for
 
-std::string row_text(const one_file& f, std::size_t i) { return f.path + ": particle " + std::to_string(i + 1); }
+std::string row_text(const one_file& f, std::size_t i) { return f.name() + ": particle " + std::to_string(i + 1); }
 
 template <class Column>
 double median_of(Column values) {
@@ -65,20 +65,19 @@ double positive(const char* option, double value) {
 
 }  // namespace
 
-void choose_kinds(set_in_making& s, const std::vector<std::optional<particle_kind>>& by_path) {
+void choose_kinds(set_in_making& s) {
   const auto rule = boundary_rule::of(s.told.boundary_kind);
   bool assumed = false;
-  for (std::size_t k = 0; k < s.files.size(); ++k) {
-    one_file& f = s.files[k];
+  for (one_file& f : s.files) {
     std::vector<particle_kind>& kind = f.content.kind;
-    if (by_path[k]) {
-      kind.assign(f.rows, *by_path[k]);
+    if (f.by_path) {
+      kind.assign(f.rows, *f.by_path);
     } else if (rule && rule->none()) {
       kind.assign(f.rows, particle_kind::fluid);
     } else if (rule && !rule->names_groups()) {
       const auto column = f.content.others.find(rule->column);
       if (column == f.content.others.end())
-        throw error(f.path + " has no column " + rule->column + ", which --boundary-kind names");
+        throw error(f.name() + " has no column " + rule->column + ", which --boundary-kind names");
       kind.assign(f.rows, particle_kind::fluid);
       std::vector<double> values;
       for (const std::string& v : rule->values) {
@@ -92,7 +91,7 @@ void choose_kinds(set_in_making& s, const std::vector<std::optional<particle_kin
       kind.assign(f.rows, particle_kind::fluid);
       assumed = true;
     }
-    if (kind.size() != f.rows) throw error(f.path + ": kinds and positions differ in number");
+    if (kind.size() != f.rows) throw error(f.name() + ": kinds and positions differ in number");
     f.content.others.clear();
   }
   std::size_t fluid = 0, boundary = 0;
@@ -101,7 +100,7 @@ void choose_kinds(set_in_making& s, const std::vector<std::optional<particle_kin
   if (fluid == 0)
     throw error(s.named() +
                 ": no particle is fluid; --boundary-kind none takes all as fluid, PATH:fluid those of a file");
-  const bool by_option = rule.has_value() || std::ranges::any_of(by_path, [](const auto& k) { return k.has_value(); });
+  const bool by_option = rule.has_value() || std::ranges::any_of(s.files, [](const one_file& f) { return f.by_path.has_value(); });
   const origin how = by_option ? origin::given : assumed ? origin::assumed : origin::read;
   const char* const from = by_option ? "by option"
                            : assumed ? "nothing says what is boundary; --boundary-kind does"
@@ -231,7 +230,7 @@ void complete_columns(set_in_making& s) {
   for (one_file& f : s.files)
     if (f.content.rho.empty()) {
       f.content.rho.assign(f.rows, eos.rho0);
-      s.tell("density", number_text(eos.rho0), origin::assumed, f.path + " has none: rho0");
+      s.tell("density", number_text(eos.rho0), origin::assumed, f.name() + " has none: rho0");
     }
   for (one_file& f : s.files) {
     if (!f.content.m.empty() && !told.mass) continue;
@@ -254,7 +253,7 @@ void complete_columns(set_in_making& s) {
     for (const std::size_t d : s.axes)
       if (f.content.v[d].empty()) {
         f.content.v[d].assign(f.rows, 0.0);
-        if (d == s.axes.front()) s.tell("velocity", "0", origin::assumed, f.path + " has none");
+        if (d == s.axes.front()) s.tell("velocity", "0", origin::assumed, f.name() + " has none");
       }
   if (dx == 0 && header_dx) nearest();
   if (dx == 0) {

@@ -20,11 +20,10 @@
 namespace pairsum::files {
 namespace {
 
-/// A column of a dataset, or a value for all rows where no dataset is named.
+/// A column of a dataset.
 struct source {
   std::string dataset;
   std::size_t column = 0;
-  double value = 0;
 };
 using sources = std::vector<source>;
 
@@ -64,8 +63,9 @@ class dialect_reader {
 
   /// The groups of a file that are meant.
   std::vector<particle_group> groups_of(const hdf5_file& file);
-  void header(std::vector<particle_group>& groups);
-  void columns(const std::vector<particle_group>& groups);
+  void header(const std::vector<particle_group>& groups);
+  /// The content of groups of one name: one, or one of each part of a snapshot.
+  file_content columns(std::span<const particle_group> groups) const;
   file_content content;
   std::optional<std::vector<double>> attribute(const std::string& group, std::string_view alternatives) const;
 
@@ -76,8 +76,8 @@ class dialect_reader {
   void locate(particle_group& g) const;
   bool told_boundary(const particle_group& g) const;
   void box(const std::string& group, std::size_t axes_of_file);
-  void quantity(const std::vector<particle_group>& groups, sources particle_group::*which, const char* what,
-                std::span<std::vector<double>* const> to);
+  static void quantity(std::span<const particle_group> groups, sources particle_group::*which, const char* what,
+                       std::span<std::vector<double>* const> to);
 
   const hdf5_file& first_;
   const hdf5_dialect& names_;
@@ -105,7 +105,7 @@ sources dialect_reader::datasets(const hdf5_file& file, const std::string& group
       const std::string dataset = spelt(file, group, name);
       if (dataset.empty()) break;
       const std::size_t columns = names.size() > 1 ? 1 : file.shape_of(dataset).columns;
-      for (std::size_t c = 0; c < columns; ++c) found.push_back({dataset, c, 0});
+      for (std::size_t c = 0; c < columns; ++c) found.push_back({dataset, c});
     }
     if (!found.empty()) return found;
   }
@@ -128,7 +128,7 @@ sources dialect_reader::told_or(const particle_group& g, std::initializer_list<c
     const std::size_t columns = g.file->shape_of(dataset).columns;
     if (!(column >= 0 && column < static_cast<double>(columns)))
       throw error(g.file->path() + ": " + dataset + " has " + std::to_string(columns) + " columns, no " + told->second);
-    found.push_back({dataset, static_cast<std::size_t>(column), 0});
+    found.push_back({dataset, static_cast<std::size_t>(column)});
   }
   return found.empty() ? datasets(*g.file, g.path, alternatives) : found;
 }
@@ -151,7 +151,7 @@ void dialect_reader::locate(particle_group& g) const {
         throw error(g.file->path() + ": " + s.dataset + " has " + std::to_string(rows) + " rows, but " +
                     g.x[0].dataset + " has " + std::to_string(g.rows));
     }
-  for (const sources* const one : {&g.rho, &g.m, &g.h, &g.kind})
+  for (const sources* const one : {&g.rho, &g.m, &g.h, &g.kind, &g.other})
     if (one->size() > 1)
       throw error(g.file->path() + ": " + one->front().dataset + " has several columns, should have one");
 }
@@ -260,7 +260,7 @@ void dialect_reader::box(const std::string& group, std::size_t axes_of_file) {
   content.periodic_by_habit = !periodic;
 }
 
-void dialect_reader::header(std::vector<particle_group>& groups) {
+void dialect_reader::header(const std::vector<particle_group>& groups) {
   const std::string& group = groups.front().path;
   const auto one = [&](std::string_view alternatives) -> std::optional<double> {
     const auto found = attribute(group, alternatives);
@@ -278,16 +278,6 @@ void dialect_reader::header(std::vector<particle_group>& groups) {
     content.dim = static_cast<int>(*dim);
   }
   box(group, axes_of_file);
-  const auto masses = attribute(group, names_.masses);
-  const bool column = std::ranges::any_of(groups, [](const particle_group& g) { return !g.m.empty(); });
-  for (particle_group& g : groups) {
-    const auto k = static_cast<std::size_t>(g.number());
-    if (!masses || !g.m.empty() || k >= masses->size() || !((*masses)[k] > 0)) continue;
-    if (column)
-      g.m = {{"", 0, (*masses)[k]}};
-    else
-      (g.boundary ? content.m_of_boundary : content.m_of_all) = (*masses)[k];
-  }
   const auto support = [&](double s, origin how, const std::string& from) {
     if (!(s > 0)) throw error(first_.path() + ": " + from + " is " + number_text(s) + ", should be positive");
     content.support = s;
@@ -309,23 +299,19 @@ void dialect_reader::header(std::vector<particle_group>& groups) {
     support(names_.support, origin::assumed, "as " + std::string(names_.name) + " writes it; --support says otherwise");
 }
 
-/// Reads a quantity of all groups, one after the other; none if one of them has it not.
-void dialect_reader::quantity(const std::vector<particle_group>& groups, sources particle_group::*which,
-                              const char* what, std::span<std::vector<double>* const> to) {
-  std::size_t rows = 0, columns = to.size(), most = 0;
+/// Reads a quantity of groups of one name, one after the other.
+void dialect_reader::quantity(std::span<const particle_group> groups, sources particle_group::*which, const char* what,
+                              std::span<std::vector<double>* const> to) {
+  const particle_group& first = groups.front();
+  const std::size_t columns = (first.*which).size();
+  std::size_t rows = 0, begin = 0;
   for (const particle_group& g : groups) {
     rows += g.rows;
-    columns = std::min(columns, (g.*which).size());
-    most = std::max(most, (g.*which).size());
-  }
-  if (columns < most && columns == 0) {
-    content.facts.push_back({what, "not used", origin::assumed, "some groups of the file have none"});
-  } else if (columns < std::min(most, to.size())) {
-    throw error(first_.path() + ": some of its groups have " + std::to_string(columns) + " columns of " + what +
-                ", others " + std::to_string(most));
+    if ((g.*which).size() != columns)
+      throw error(g.file->path() + ": " + g.path + " has " + std::to_string((g.*which).size()) + " columns of " + what +
+                  ", but " + std::to_string(columns) + " in " + first.file->path());
   }
   for (std::size_t k = 0; k < columns; ++k) resize_column(*to[k], rows);
-  std::size_t begin = 0;
   for (const particle_group& g : groups) {
     const sources& all = g.*which;
     for (std::size_t k = 0; k < columns;) {
@@ -336,17 +322,15 @@ void dialect_reader::quantity(const std::vector<particle_group>& groups, sources
         of_dataset.push_back(all[k].column);
         places.push_back(to[k]->data() + begin);
       }
-      if (dataset.empty())
-        std::fill_n(places[0], g.rows, all[0].value);
-      else
-        g.file->read(dataset, of_dataset, places);
+      g.file->read(dataset, of_dataset, places);
     }
     begin += g.rows;
   }
 }
 
-void dialect_reader::columns(const std::vector<particle_group>& groups) {
-  file_content& c = content;
+file_content dialect_reader::columns(std::span<const particle_group> groups) const {
+  file_content c = content;
+  const particle_group& first = groups.front();
   const auto three = [](std::array<std::vector<double>, 3>& a) { return std::array{&a[0], &a[1], &a[2]}; };
   quantity(groups, &particle_group::x, "positions", three(c.x));
   quantity(groups, &particle_group::v, "velocities", three(c.v));
@@ -356,23 +340,22 @@ void dialect_reader::columns(const std::vector<particle_group>& groups) {
   one(&particle_group::rho, "density", c.rho);
   one(&particle_group::m, "mass", c.m);
   one(&particle_group::h, "h", c.h);
-  if (std::ranges::any_of(groups, [](const particle_group& g) { return !g.other.empty(); }))
+  if (!first.other.empty())
     one(&particle_group::other, "kind", c.others[boundary_rule::of(told_.boundary_kind)->column]);
+  if (const auto masses = attribute(first.path, names_.masses)) {
+    const auto k = static_cast<std::size_t>(first.number());
+    if (k < masses->size() && (*masses)[k] > 0) c.m_of_all = (*masses)[k];
+  }
   std::vector<double> kinds;
   one(&particle_group::kind, "kind", kinds);
-  c.kind.resize(c.x[0].size());
+  c.kind.assign(c.x[0].size(), first.boundary ? particle_kind::boundary : particle_kind::fluid);
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (kinds[i] != 0 && kinds[i] != 1)
       throw error(first_.path() + ": the kind of particle " + std::to_string(i + 1) + " is " + number_text(kinds[i]) +
                   ", should be 0 (fluid) or 1 (boundary)");
     c.kind[i] = static_cast<particle_kind>(kinds[i]);
   }
-  auto at = c.kind.begin();
-  for (const particle_group& g : groups) {
-    const auto end = at + static_cast<std::ptrdiff_t>(g.rows);
-    if (kinds.empty()) std::fill(at, end, g.boundary ? particle_kind::boundary : particle_kind::fluid);
-    at = end;
-  }
+  return c;
 }
 
 /// The dialect of a file. Errors: none.
@@ -428,8 +411,20 @@ file_content read_here(const std::string& path, const hints& told) {
   }
   if (groups.empty()) throw error(path + " has no particles");
   reader.header(groups);
-  reader.columns(groups);
-  return std::move(reader.content);
+  std::ranges::stable_sort(groups, {}, &particle_group::label);
+  std::vector<file_content> all;
+  for (auto begin = groups.begin(); begin != groups.end();) {
+    const auto end = std::find_if(begin, groups.end(), [&](const particle_group& g) { return g.label != begin->label; });
+    all.push_back(reader.columns({begin, end}));
+    if (begin != groups.begin() || end != groups.end()) all.back().label = begin->label;
+    reader.content.facts.clear();
+    reader.content.parts.clear();
+    begin = end;
+  }
+  file_content first = std::move(all.front());
+  all.erase(all.begin());
+  first.more = std::move(all);
+  return first;
 }
 
 bool recognises(std::span<const std::byte> head, std::string_view) {

@@ -6,11 +6,14 @@
 
 namespace pairsum::files {
 
-/// What one file of a set says.
+/// What one file of a set says, or one group of its particles.
 struct one_file {
   std::string path;
+  std::optional<particle_kind> by_path;  ///< what all its particles are, as the path was given
   file_content content;
   std::size_t rows = 0;
+
+  std::string name() const { return path + (content.label.empty() ? "" : ", " + content.label); }
 };
 
 /// A set between its files and what is made of them. The functions below are called in this order.
@@ -19,6 +22,7 @@ struct set_in_making {
 
   const hints& told;
   std::vector<one_file> files;
+  std::size_t paths = 0;          ///< of which they were read
   std::vector<std::size_t> axes;  ///< of the files, that become x, y and z
   read_set made;
 
@@ -34,11 +38,11 @@ struct set_in_making {
     return {};
   }
   /// All paths, or how many.
-  std::string named() const { return files.size() == 1 ? files[0].path : std::to_string(files.size()) + " files"; }
+  std::string named() const { return paths == 1 ? files[0].path : std::to_string(paths) + " files"; }
 };
 
 /// Kinds of the particles, as the path, an option or the file says, in this order.
-void choose_kinds(set_in_making& s, const std::vector<std::optional<particle_kind>>& by_path);
+void choose_kinds(set_in_making& s);
 /// Throws pairsum::error unless all numbers are finite, and densities, masses and lengths positive. A column of zeros
 /// is none.
 void check_numbers(set_in_making& s);

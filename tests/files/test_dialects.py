@@ -162,7 +162,8 @@ def test_a_file_is_given_once(tmp_path, particles):
         assert "is given twice" in read(path, other).error, other
 
 
-def pysph(path, groups, constant_z=None):
+def pysph(path, groups, constant_z=None, leave=()):
+    """`leave` names columns that groups lack: ("wall", "rho")."""
     with h5py.File(path, "w") as file:
         file.create_group("solver_data").attrs["t"] = 1.5
         for name, p in groups.items():
@@ -171,6 +172,8 @@ def pysph(path, groups, constant_z=None):
             w = p.v[:, 2] if constant_z is None else np.zeros(len(p))
             data = dict(x=p.x[:, 0], y=p.x[:, 1], z=z, u=p.v[:, 0], v=p.v[:, 1], w=w, rho=p.rho, m=p.m, h=p.h)
             for column, values in data.items():
+                if (name, column) in leave:
+                    continue
                 arrays.create_dataset(column, data=values, compression="gzip")
     return path
 
@@ -184,6 +187,26 @@ def test_pysph_kinds_by_name(tmp_path):
     assert result.set["H"] == 2 * fluid.h.max() and not result.set["periodic"]
     assert read(path, boundary_kind="none").set["fluid"] == 200
     assert read(path, boundary_kind="name=obstacle").set["fluid"] == 160
+
+
+def test_what_one_group_lacks_is_filled_there_alone(tmp_path):
+    fluid, wall = Particles(100), Particles(60, 2)
+    path = pysph(tmp_path / "a.hdf5", {"fluid": fluid, "wall": wall}, leave=[("wall", c) for c in ("u", "v", "w", "rho", "m")])
+    result = read(path, out=tmp_path / "out.hdf", rho0=1.5)
+    got = columns(tmp_path / "out.hdf")
+    assert np.array_equal(got["Velocities"], np.vstack([fluid.v, np.zeros((60, 3))]))
+    assert np.array_equal(got["Density"], np.append(fluid.rho, np.full(60, 1.5)))
+    assert np.array_equal(got["Masses"][:100], fluid.m) and (got["Masses"][100:] > 0).all()
+    for what in ("velocity", "density"):
+        assert result.fact[what]["how"] == "assumed" and result.fact[what]["from"].startswith(f"{path}, wall has none")
+    pysph(path, {"fluid": fluid, "wall": wall}, leave=[("fluid", "rho"), ("fluid", "m")])
+    assert "fluid" in read(path, rho0=1.5).fact["density"]["from"]
+
+
+def test_parts_of_a_snapshot_have_the_same_columns(tmp_path):
+    for k in range(2):
+        gadget(tmp_path / f"a.{k}.hdf5", Particles(50, k), header={"NumFilesPerSnapshot": 2}, leave=("Density",) if k else ())
+    assert "PartType0 has 0 columns of density, but 1 in" in read(tmp_path / "a.0.hdf5").error
 
 
 def test_2d_in_three_columns_is_found(tmp_path):

@@ -43,6 +43,9 @@ file_content in_two_s(const std::function<file_content()>& read) { return in_chi
 
 TEST(in_child, hands_over_every_member) {
   file_content told;
+  told.more.resize(2);
+  told.more[1].label = "PartType1";
+  told.more[1].rho = {10};
   told.format = "f";
   told.dialect = "d";
   told.x = {{{1, 2}, {3, 4}, {}}};
@@ -87,6 +90,9 @@ TEST(in_child, hands_over_every_member) {
   EXPECT_EQ(got.periodic, told.periodic);
   EXPECT_TRUE(got.periodic_by_habit);
   EXPECT_EQ(got.parts, told.parts);
+  ASSERT_EQ(got.more.size(), 2u);
+  EXPECT_EQ(got.more[1].label, "PartType1");
+  EXPECT_EQ(got.more[1].rho, std::vector<double>{10});
   ASSERT_EQ(got.facts.size(), 1u);
   EXPECT_EQ(got.facts[0].what + got.facts[0].value + got.facts[0].from, "whatvaluefrom");
   EXPECT_EQ(got.facts[0].how, origin::derived);
