@@ -100,7 +100,8 @@ void choose_kinds(set_in_making& s) {
   if (fluid == 0)
     throw error(s.named() +
                 ": no particle is fluid; --boundary-kind none takes all as fluid, PATH:fluid those of a file");
-  const bool by_option = rule.has_value() || std::ranges::any_of(s.files, [](const one_file& f) { return f.by_path.has_value(); });
+  const bool by_option =
+      rule.has_value() || std::ranges::any_of(s.files, [](const one_file& f) { return f.by_path.has_value(); });
   const origin how = by_option ? origin::given : assumed ? origin::assumed : origin::read;
   const char* const from = by_option ? "by option"
                            : assumed ? "nothing says what is boundary; --boundary-kind does"
@@ -117,8 +118,9 @@ void check_numbers(set_in_making& s) {
       if (must_be_positive && std::ranges::all_of(column, [](double a) { return a == 0; }))
         std::vector<double>().swap(column);
       for (std::size_t i = 0; i < column.size(); ++i)
-        if ((!std::isfinite(column[i]) || (must_be_positive && !(column[i] > 0))) &&
-            !(of_fluid_alone && c.kind[i] != particle_kind::fluid))
+        if (c.kind[i] != particle_kind::fluid && (of_fluid_alone || (must_be_positive && column[i] == 0)))
+          continue;  // a wall that has none
+        else if (!std::isfinite(column[i]) || (must_be_positive && !(column[i] > 0)))
           throw error(row_text(f, i) + " has " + what + " = " + number_text(column[i]) + ", should be " +
                       (must_be_positive ? "positive and finite" : "finite"));
     };
@@ -227,20 +229,26 @@ void complete_columns(set_in_making& s) {
   } else {
     throw error(s.named() + ": there is neither density nor mass; --rho0 says the density, 1000 for water in kg/m3");
   }
-  for (one_file& f : s.files)
-    if (f.content.rho.empty()) {
-      f.content.rho.assign(f.rows, eos.rho0);
-      s.tell("density", number_text(eos.rho0), origin::assumed, f.name() + " has none: rho0");
-    }
   for (one_file& f : s.files) {
-    if (!f.content.m.empty() && !told.mass) continue;
+    std::vector<double>& rho = f.content.rho;
+    const auto walls = std::ranges::count(rho, 0.0);
+    if (!rho.empty() && walls == 0) continue;
+    s.tell(
+        "density", number_text(eos.rho0), origin::assumed,
+        f.name() + (rho.empty() ? " has none: rho0" : ": " + std::to_string(walls) + " of the walls have none: rho0"));
+    rho.resize(f.rows, 0.0);
+    std::ranges::replace(rho, 0.0, eos.rho0);
+  }
+  for (one_file& f : s.files) {
+    if (told.mass) f.content.m.clear();
+    if (!f.content.m.empty() && std::ranges::count(f.content.m, 0.0) == 0) continue;
     const auto header_boundary = f.content.m_of_boundary;
     const bool given = told.mass.has_value(), read = !given && f.content.m_of_all.has_value();
     const double fluid = positive("the mass", given ? *told.mass : read ? *f.content.m_of_all : eos.rho0 * nearest());
     const double boundary = !given && header_boundary ? positive("the mass of boundary", *header_boundary) : fluid;
-    f.content.m.resize(f.rows);
+    f.content.m.resize(f.rows, 0.0);
     for (std::size_t i = 0; i < f.rows; ++i)
-      f.content.m[i] = f.content.kind[i] == particle_kind::fluid ? fluid : boundary;
+      if (f.content.m[i] == 0) f.content.m[i] = f.content.kind[i] == particle_kind::fluid ? fluid : boundary;
     s.tell("mass", number_text(fluid) + (boundary == fluid ? "" : ", of boundary " + number_text(boundary)),
            given  ? origin::given
            : read ? origin::read

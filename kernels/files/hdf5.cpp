@@ -287,7 +287,7 @@ void dialect_reader::header(const std::vector<particle_group>& groups) {
     content.h_of_all = H;
     return support(1, origin::read, "SupportRadius of the header is H itself");
   }
-  if (groups.front().h.empty()) return;
+  if (std::ranges::all_of(groups, [](const particle_group& g) { return g.h.empty(); })) return;
   if (const auto gamma = one(names_.gamma)) return support(*gamma, origin::read, "Kernel gamma");
   for (const std::string_view f : split(names_.function, '|')) {
     const std::string object(f.substr(0, f.find('@'))), name(f.substr(f.find('@') + 1));
@@ -414,7 +414,8 @@ file_content read_here(const std::string& path, const hints& told) {
   std::ranges::stable_sort(groups, {}, &particle_group::label);
   std::vector<file_content> all;
   for (auto begin = groups.begin(); begin != groups.end();) {
-    const auto end = std::find_if(begin, groups.end(), [&](const particle_group& g) { return g.label != begin->label; });
+    const auto end =
+        std::find_if(begin, groups.end(), [&](const particle_group& g) { return g.label != begin->label; });
     all.push_back(reader.columns({begin, end}));
     if (begin != groups.begin() || end != groups.end()) all.back().label = begin->label;
     reader.content.facts.clear();

@@ -44,7 +44,7 @@ struct set_in_making {
 /// Kinds of the particles, as the path, an option or the file says, in this order.
 void choose_kinds(set_in_making& s);
 /// Throws pairsum::error unless all numbers are finite, and densities, masses and lengths positive. A column of zeros
-/// is none.
+/// is none, and so is a wall's 0.
 void check_numbers(set_in_making& s);
 /// Which axes vary, or are asked for.
 void choose_axes(set_in_making& s);

@@ -297,6 +297,33 @@ def test_h_is_that_of_the_fluid(tmp_path):
     assert "particle 4 has h = 0" in read(pysph(tmp_path / "a.hdf5", {"fluid": fluid, "wall": wall})).error
 
 
+def test_h_of_the_fluid_counts_where_walls_sort_first(tmp_path):
+    fluid, boundary = Particles(100), Particles(50, 2)
+    path = pysph(tmp_path / "a.hdf5", {"boundary": boundary, "fluid": fluid}, leave=[("boundary", "h")])
+    result = read(path)
+    assert result.code == 0, result.error
+    assert result.set["H"] == 2 * fluid.h.max()
+
+
+def test_walls_may_have_zeros(tmp_path, particles):
+    """In columns that fluid and walls share."""
+    kind = np.repeat([0, 1], 100)
+    for name in ("rho", "m", "h"):
+        getattr(particles, name)[kind == 1] = 0
+    path = gadget(tmp_path / "a.hdf5", particles)
+    with h5py.File(path, "a") as file:
+        file["PartType0/Kind"] = kind
+    result = read(path, out=tmp_path / "out.hdf")
+    assert result.code == 0, result.error
+    got, wall = columns(tmp_path / "out.hdf"), slice(100, None)
+    assert (got["Density"][wall] == result.set["rho0"]).all() and (got["Masses"][wall] > 0).all()
+    assert np.array_equal(got["Masses"][:100], particles.m[:100]) and "100 of the walls" in result.fact["density"]["from"]
+    assert result.set["rho0"] == pytest.approx(particles.rho[:100].mean()) and result.set["H"] == particles.h.max()
+    with h5py.File(path, "a") as file:
+        file["PartType0/Masses"][150] = -1
+    assert "particle 151 has mass = -1" in read(path).error
+
+
 def test_varying_h(tmp_path, particles):
     h = np.linspace(0.2, 0.29, len(particles))
     path = gadget(tmp_path / "a.hdf5", particles, h=h)
