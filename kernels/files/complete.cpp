@@ -53,10 +53,6 @@ double spacing_of_fluid(const set_in_making& s) {
   return nearest_spacing(columns);
 }
 
-bool all_have(const set_in_making& s, std::vector<double> file_content::*column) {
-  return std::ranges::none_of(s.files, [&](const one_file& f) { return (f.content.*column).empty(); });
-}
-
 double positive(const char* option, double value) {
   if (!(value > 0) || !std::isfinite(value))
     throw error(std::string(option) + " is " + number_text(value) + ", should be a positive number");
@@ -187,8 +183,12 @@ void choose_axes(set_in_making& s) {
 void complete_columns(set_in_making& s) {
   const hints& told = s.told;
   tait& eos = s.made.initial.eos;
-  const bool has_rho = all_have(s, &file_content::rho), has_m = all_have(s, &file_content::m);
-  const auto header_m = s.first([](const file_content& c) { return c.m_of_all; });
+  double density_sum = 0, with_density = 0;
+  each_fluid(s, [&](const file_content& c, std::size_t i) {
+    if (c.rho.empty()) return;
+    density_sum += c.rho[i];
+    ++with_density;
+  });
   const auto header_dx = s.first([](const file_content& c) { return c.dx; });
   double& dx = s.made.dx;
   const auto nearest = [&] {
@@ -204,30 +204,26 @@ void complete_columns(set_in_making& s) {
     return std::pow(dx, s.dim());
   };
   const auto header_rho0 = s.first([](const file_content& c) { return c.rho0; });
-  const std::optional<double> one_mass = told.mass ? told.mass : header_m;
   if (told.rho0) {
     eos.rho0 = positive("--rho0", *told.rho0);
     s.tell("rho0", number_text(eos.rho0), origin::given, "--rho0");
   } else if (header_rho0) {
     eos.rho0 = positive("rho0 of the header", *header_rho0);
     s.tell("rho0", number_text(eos.rho0), origin::read, "the header");
-  } else if (has_rho) {
-    double sum = 0, n = 0;
-    each_fluid(s, [&](const file_content& c, std::size_t i) {
-      sum += c.rho[i];
-      ++n;
-    });
-    eos.rho0 = sum / n;
+  } else if (with_density > 0) {
+    eos.rho0 = density_sum / with_density;
     s.tell("rho0", number_text(eos.rho0), origin::derived, "mean density of the fluid");
-  } else if (one_mass || has_m) {
+  } else {
     std::vector<double> masses;
-    if (!one_mass) masses = of_fluid(s, [](const file_content& c, std::size_t i) { return c.m[i]; });
-    eos.rho0 = positive("the density of masses and spacing",
-                        (one_mass ? *one_mass : median_of(std::move(masses))) / nearest());
+    if (told.mass) masses = {*told.mass};
+    each_fluid(s, [&](const file_content& c, std::size_t i) {
+      if (!told.mass && (!c.m.empty() || c.m_of_all)) masses.push_back(c.m.empty() ? *c.m_of_all : c.m[i]);
+    });
+    if (masses.empty())
+      throw error(s.named() + ": there is neither density nor mass; --rho0 says the density, 1000 for water in kg/m3");
+    eos.rho0 = positive("the density of masses and spacing", median_of(std::move(masses)) / nearest());
     s.tell("rho0", number_text(eos.rho0), origin::derived,
            "median mass of the fluid over dx^" + std::to_string(s.dim()));
-  } else {
-    throw error(s.named() + ": there is neither density nor mass; --rho0 says the density, 1000 for water in kg/m3");
   }
   for (one_file& f : s.files) {
     std::vector<double>& rho = f.content.rho;

@@ -203,6 +203,16 @@ def test_what_one_group_lacks_is_filled_there_alone(tmp_path):
     assert "fluid" in read(path, rho0=1.5).fact["density"]["from"]
 
 
+def test_rho0_is_that_of_the_fluid_that_has_a_density(tmp_path):
+    (tmp_path / "fluid.csv").write_text("x,y,rho\n0,0,998\n1,0,1000\n0,1,1002\n1,1,1004\n")
+    (tmp_path / "wall.csv").write_text("x,y\n0,-1\n1,-1\n")
+    result = read(tmp_path / "fluid.csv", f"{tmp_path / 'wall.csv'}:boundary", H=2)
+    assert result.code == 0 and result.set["rho0"] == 1001, result.error
+    (tmp_path / "fluid.csv").write_text("x,y,m\n0,0,998\n1,0,1001\n0,1,1001\n1,1,1004\n")
+    result = read(tmp_path / "fluid.csv", f"{tmp_path / 'wall.csv'}:boundary", H=2)
+    assert result.code == 0 and result.set["rho0"] == 1001, result.error
+
+
 def test_parts_of_a_snapshot_have_the_same_columns(tmp_path):
     for k in range(2):
         gadget(tmp_path / f"a.{k}.hdf5", Particles(50, k), header={"NumFilesPerSnapshot": 2}, leave=("Density",) if k else ())
