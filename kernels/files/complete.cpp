@@ -1,4 +1,4 @@
-// What is made of what files say, but for the domain: kinds, axes, density, mass, support radius.
+// What is made of what files say, but for support radius and domain: kinds, axes, density, mass.
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +11,6 @@
 namespace pairsum::files {
 namespace {
 
-constexpr double widest_h = 1.5;  ///< largest h over smallest that one H for all may stand for
-
 std::string row_text(const one_file& f, std::size_t i) { return f.name() + ": particle " + std::to_string(i + 1); }
 
 template <class Column>
@@ -23,14 +21,6 @@ double median_of(Column values) {
   return *middle;
 }
 
-/// f(file, row) for every fluid particle.
-template <class F>
-void each_fluid(const set_in_making& s, F&& f) {
-  for (const one_file& file : s.files)
-    for (std::size_t i = 0; i < file.rows; ++i)
-      if (file.content.kind[i] == particle_kind::fluid) f(file.content, i);
-}
-
 /// Values of the fluid, value(file, row).
 template <class F>
 std::vector<double> of_fluid(const set_in_making& s, F&& value) {
@@ -39,7 +29,7 @@ std::vector<double> of_fluid(const set_in_making& s, F&& value) {
   for (const one_file& f : s.files)
     n += static_cast<std::size_t>(std::ranges::count(f.content.kind, particle_kind::fluid));
   all.reserve(n);
-  each_fluid(s, [&](const file_content& c, std::size_t i) { all.push_back(value(c, i)); });
+  s.each_fluid([&](const file_content& c, std::size_t i) { all.push_back(value(c, i)); });
   return all;
 }
 
@@ -53,13 +43,13 @@ double spacing_of_fluid(const set_in_making& s) {
   return nearest_spacing(columns);
 }
 
-double positive(const char* option, double value) {
+}  // namespace
+
+double positive(const std::string& what, double value) {
   if (!(value > 0) || !std::isfinite(value))
-    throw error(std::string(option) + " is " + number_text(value) + ", should be a positive number");
+    throw error(what + " is " + number_text(value) + ", should be a positive number");
   return value;
 }
-
-}  // namespace
 
 void choose_kinds(set_in_making& s) {
   const auto rule = boundary_rule::of(s.told.boundary_kind);
@@ -184,7 +174,7 @@ void complete_columns(set_in_making& s) {
   const hints& told = s.told;
   tait& eos = s.made.initial.eos;
   double density_sum = 0, with_density = 0;
-  each_fluid(s, [&](const file_content& c, std::size_t i) {
+  s.each_fluid([&](const file_content& c, std::size_t i) {
     if (c.rho.empty()) return;
     density_sum += c.rho[i];
     ++with_density;
@@ -216,7 +206,7 @@ void complete_columns(set_in_making& s) {
   } else {
     std::vector<double> masses;
     if (told.mass) masses = {*told.mass};
-    each_fluid(s, [&](const file_content& c, std::size_t i) {
+    s.each_fluid([&](const file_content& c, std::size_t i) {
       if (!told.mass && (!c.m.empty() || c.m_of_all)) masses.push_back(c.m.empty() ? *c.m_of_all : c.m[i]);
     });
     if (masses.empty())
@@ -282,52 +272,6 @@ void complete_columns(set_in_making& s) {
     s.made.initial.gravity = *gravity;
     s.tell("gravity", number_text(*gravity), origin::read, "the header");
   }
-}
-
-void choose_H(set_in_making& s) {
-  const hints& told = s.told;
-  double& H = s.made.initial.H;
-  const auto said = s.first([](const file_content& c) { return c.support; });
-  const double support = told.support ? positive("--support", *told.support) : said.value_or(2);
-  const std::string factor = number_text(support) + " h";
-  const auto take = [&](double value, origin how, const std::string& from) {
-    H = value;
-    s.tell("H", number_text(H), how, from);
-  };
-  if (told.H) return take(positive("--H", *told.H), origin::given, "--H");
-  if (told.h)
-    return take(support * positive("--h", *told.h), origin::given,
-                factor + (told.support ? " by --support"
-                          : said       ? ""
-                                       : ", assumed"));
-  std::vector<double> h;
-  each_fluid(s, [&](const file_content& c, std::size_t i) {
-    if (!c.h.empty()) h.push_back(c.h[i]);
-  });
-  const auto of_all = s.first([](const file_content& c) { return c.h_of_all; });
-  if (h.empty() && of_all)
-    return take(support * positive("h of the header", *of_all), support == 1 ? origin::read : origin::derived,
-                support == 1 ? "the header" : factor + " of the header");
-  if (h.empty())
-    throw error(s.named() +
-                ": nothing says the support radius; --H does, in m, or --h with --support; the spacing is " +
-                number_text(s.made.dx) + " m");
-  if (!told.support && !said)
-    throw error(
-        s.named() +
-        ": the smoothing kernel is unknown, so h does not say the support radius; --support does, as H / h, or --H");
-  const auto [low, high] = std::ranges::minmax(h);
-  const std::string spread = number_text(low) + " to " + number_text(high) + ", a factor of " +
-                             number_text(std::round(high / low * 1000) / 1000);
-  if (high > widest_h * low)
-    throw error(s.named() + ": h goes from " + spread + ", and pairsum has one H for all particles, so " +
-                number_text(widest_h) + " is the most; --H takes a length all the same");
-  const double q = told.h_quantile.value_or(1);
-  if (!(q > 0 && q <= 1)) throw error("--h-quantile is " + number_text(q) + ", should be above 0 and at most 1");
-  const auto at = h.begin() + static_cast<std::ptrdiff_t>(std::ceil(q * static_cast<double>(h.size())) - 1);
-  std::ranges::nth_element(h, at);
-  s.tell("h", spread, origin::read, "the column h of the fluid");
-  take(support * *at, origin::derived, factor + (q == 1 ? ", of the largest" : ", of the quantile " + number_text(q)));
 }
 
 void gather(set_in_making& s) {

@@ -37,6 +37,13 @@ struct set_in_making {
       if (const auto said = get(f.content)) return said;
     return {};
   }
+  /// f(file's content, row) for every fluid particle.
+  template <class F>
+  void each_fluid(F&& f) const {
+    for (const one_file& file : files)
+      for (std::size_t i = 0; i < file.rows; ++i)
+        if (file.content.kind[i] == particle_kind::fluid) f(file.content, i);
+  }
   /// All paths, or how many.
   std::string named() const { return paths == 1 ? files[0].path : std::to_string(paths) + " files"; }
 };
@@ -50,7 +57,9 @@ void check_numbers(set_in_making& s);
 void choose_axes(set_in_making& s);
 /// Density, mass, velocity and equation of state, spacing.
 void complete_columns(set_in_making& s);
-/// The support radius.
+/// A length, mass or the like. Errors: what is not positive, with its name.
+double positive(const std::string& what, double value);
+/// The support radius: of the fluid, by each file's h and its own factor.
 void choose_H(set_in_making& s);
 /// Moves the columns to the table: fluid first.
 void gather(set_in_making& s);

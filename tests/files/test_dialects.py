@@ -334,6 +334,20 @@ def test_walls_may_have_zeros(tmp_path, particles):
     assert "particle 151 has mass = -1" in read(path).error
 
 
+def test_each_files_h_has_its_own_support(tmp_path):
+    a, b = Particles(100), Particles(80, 2)
+    a.h[:], b.h[:] = 0.3, 0.2
+    first = gadget(tmp_path / "a.hdf5", a)  # whose h is H
+    second = gadget(tmp_path / "b.hdf5", b, plural=True)
+    with h5py.File(second, "a") as file:
+        file.create_group("HydroScheme").attrs["Kernel gamma"] = 1.75
+    result = read(first, second)
+    assert result.set["H"] == pytest.approx(0.35) and "each file" in result.fact["H"]["from"], result.error
+    assert read(second, first).set["H"] == result.set["H"]
+    (tmp_path / "c.csv").write_text("x,y,z,rho,h\n0.5,0.5,0.5,1,0.2\n0.5,0.5,0.25,1,0.2\n")
+    assert "c.csv: the smoothing kernel is unknown" in read(first, tmp_path / "c.csv").error
+
+
 def test_varying_h(tmp_path, particles):
     h = np.linspace(0.2, 0.29, len(particles))
     path = gadget(tmp_path / "a.hdf5", particles, h=h)
