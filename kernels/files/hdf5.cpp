@@ -283,10 +283,8 @@ void dialect_reader::header(const std::vector<particle_group>& groups) {
     content.support = s;
     if (!told_.H && !told_.support) content.facts.push_back({"support", number_text(s) + " h", how, from});
   };
-  if (const auto H = one(names_.H)) {
-    content.h_of_all = H;
-    return support(1, origin::read, "SupportRadius of the header is H itself");
-  }
+  content.H = one(names_.H);
+  if (content.H) return;
   if (std::ranges::all_of(groups, [](const particle_group& g) { return g.h.empty(); })) return;
   if (const auto gamma = one(names_.gamma)) return support(*gamma, origin::read, "Kernel gamma");
   for (const std::string_view f : split(names_.function, '|')) {

@@ -45,7 +45,7 @@ struct file_content {
   std::vector<particle_kind> kind;
   std::map<std::string, std::vector<double>> others;  ///< columns that hints name (boundary_kind)
   std::optional<int> dim;
-  std::optional<double> dx, h_of_all, m_of_all, m_of_boundary, rho0, B, gravity, support, time;  ///< of the header
+  std::optional<double> H, dx, h_of_all, m_of_all, m_of_boundary, rho0, B, gravity, support, time;  ///< of the header
   std::vector<double> box_low, box_high;  ///< m, an entry per axis; empty: not in the file
   std::optional<axes> periodic;
   bool periodic_by_habit = false;  ///< no word of the file says so, but programs of its dialect do it

@@ -26,9 +26,11 @@ struct radii {
   }
 };
 
-/// A header's h, which needs a factor.
+/// A header's H, or its h, which needs a factor.
 void add_header(const set_in_making& s, const one_file& f, radii& all) {
-  if (f.content.h_of_all)
+  if (f.content.H)
+    all.add(1, positive(f.name() + ": H of the header", *f.content.H));
+  else if (f.content.h_of_all)
     all.add(s.told.support.value_or(f.content.support.value_or(usual_support)),
             positive(f.name() + ": h of the header", *f.content.h_of_all));
 }
@@ -75,7 +77,7 @@ void choose_H(set_in_making& s) {
     return std::ranges::find(f.content.kind, particle_kind::fluid) != f.content.kind.end();
   };
   for (const one_file& f : s.files)
-    if (has_fluid(f) && !f.content.h.empty())
+    if (has_fluid(f) && !f.content.h.empty() && !f.content.H)
       add_column(s, f, all);
     else if (has_fluid(f))
       add_header(s, f, all);

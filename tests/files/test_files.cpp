@@ -56,6 +56,7 @@ TEST(in_child, hands_over_every_member) {
   told.kind = {particle_kind::boundary, particle_kind::fluid};
   told.others = {{"Type", {1, 3}}, {"Mk", {}}};
   told.dim = 2;
+  told.H = 0.15;
   told.dx = 0.1;
   told.h_of_all = 0.2;
   told.m_of_all = 0.3;
@@ -81,7 +82,7 @@ TEST(in_child, hands_over_every_member) {
   EXPECT_EQ(got.kind, told.kind);
   EXPECT_EQ(got.others, told.others);
   for (const auto member :
-       {&file_content::dx, &file_content::h_of_all, &file_content::m_of_all, &file_content::m_of_boundary,
+       {&file_content::H, &file_content::dx, &file_content::h_of_all, &file_content::m_of_all, &file_content::m_of_boundary,
         &file_content::rho0, &file_content::B, &file_content::gravity, &file_content::support, &file_content::time})
     EXPECT_EQ(got.*member, told.*member);
   EXPECT_EQ(got.dim, told.dim);
