@@ -15,6 +15,7 @@
 #include <pairsum/files/hdf5_dialects.hpp>
 #include <pairsum/files/hdf5_file.hpp>
 #include <pairsum/files/in_child.hpp>
+#include <pairsum/files/shown.hpp>
 #include <pairsum/files/words.hpp>
 
 namespace pairsum::files {
@@ -286,6 +287,13 @@ void dialect_reader::header(const std::vector<particle_group>& groups) {
   content.H = one(names_.H);
   if (content.H) return;
   if (std::ranges::all_of(groups, [](const particle_group& g) { return g.h.empty(); })) return;
+  const std::size_t at = names_.length_is.find('@');
+  const std::string header(names_.length_is.substr(0, at)),
+      word(at == names_.length_is.npos ? "" : names_.length_is.substr(at + 1));
+  const auto is = first_.has(header) ? first_.text(header, word) : std::nullopt;
+  if (is && *is != "h" && *is != "support")
+    throw error(first_.path() + ": " + word + " is " + shown(*is) + ", should be \"h\" or \"support\"");
+  if (is == "support") return support(1, origin::read, word + " of the header: h is the support radius");
   if (const auto gamma = one(names_.gamma)) return support(*gamma, origin::read, "Kernel gamma");
   for (const std::string_view f : split(names_.function, '|')) {
     const std::string object(f.substr(0, f.find('@'))), name(f.substr(f.find('@') + 1));
@@ -293,6 +301,7 @@ void dialect_reader::header(const std::vector<particle_group>& groups) {
     const double gamma = function ? gamma_of(*function, content.dim.value_or(static_cast<int>(axes_of_file))) : 0;
     if (gamma > 0) return support(gamma, origin::derived, "the smoothing kernel, " + *function);
   }
+  if (is) return support(2, origin::assumed, word + " is h; --support says how much larger the support radius is");
   if (names_.support > 0)
     support(names_.support, origin::assumed, "as " + std::string(names_.name) + " writes it; --support says otherwise");
 }

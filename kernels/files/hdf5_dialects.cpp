@@ -17,7 +17,7 @@ constexpr hdf5_dialect gadget{
     .edges = "Header@BoxSize", .low = "Header@BoxLow", .high = "Header@BoxHigh",
     .axes = "Header@Periodic|RuntimePars@PeriodicBoundariesOn|Parameters@InitialConditions:periodic",
     .gamma = "HydroScheme@Kernel gamma|Parameters@Kernel gamma",
-    .function = "HydroScheme@Kernel function",
+    .length_is = "Header@SmoothingLengthIs", .function = "HydroScheme@Kernel function",
     .masses = "Header@MassTable", .counts = "Header@NumPart_ThisFile", .files = "Header@NumFilesPerSnapshot",
     .rho0 = "Header@Rho0", .B = "Header@B", .H = "Header@SupportRadius",
     .gravity = "Header@Gravity", .dx = "Header@Spacing",

@@ -27,9 +27,10 @@ struct hdf5_dialect {
   std::string_view edges = "";                ///< of a box at 0: one number for all axes, or one for each
   std::string_view limits = "";               ///< of a box: low and high of x, of y and of z
   std::string_view low = "", high = "";       ///< of a box, a number per axis
-  std::string_view axes = "";      ///< periodic or not: one number for all axes, or one for each; 1 is periodic
-  std::string_view gamma = "";     ///< support radius over smoothing length
-  std::string_view function = "";  ///< the smoothing kernel's name, which says gamma where no attribute does
+  std::string_view axes = "";       ///< periodic or not: one number for all axes, or one for each; 1 is periodic
+  std::string_view gamma = "";      ///< support radius over smoothing length
+  std::string_view length_is = "";  ///< a text: what h is, "h" or "support"
+  std::string_view function = "";   ///< the smoothing kernel's name, which says gamma where no attribute does
   std::string_view masses =
       "";  ///< an attribute: the mass of all particles of a group, by its number; 0 means a column
   std::string_view counts = "";  ///< an attribute: how many particles a group has, by its number

@@ -348,6 +348,18 @@ def test_each_files_h_has_its_own_support(tmp_path):
     assert "c.csv: the smoothing kernel is unknown" in read(first, tmp_path / "c.csv").error
 
 
+def test_the_header_says_what_h_is(tmp_path, particles):
+    def result(word, **options):
+        path = gadget(tmp_path / "a.hdf5", particles, header={"SmoothingLengthIs": np.bytes_(word)})
+        return read(path, **options)
+
+    largest = particles.h.max()
+    assert result("support").set["H"] == largest and result("support").fact["support"]["how"] == "read"
+    assert result("h").set["H"] == 2 * largest and result("h").fact["support"]["how"] == "assumed"
+    assert result("h", support=3).set["H"] == 3 * largest
+    assert 'SmoothingLengthIs is "r", should be' in result("r").error
+
+
 def test_varying_h(tmp_path, particles):
     h = np.linspace(0.2, 0.29, len(particles))
     path = gadget(tmp_path / "a.hdf5", particles, h=h)
