@@ -267,11 +267,11 @@ void complete_columns(set_in_making& s) {
          told.B     ? "by option"
          : header_B ? "the header"
                     : "speed of sound of " + number_text(eos.sound_speed0()) + " m/s");
-  if (const auto gravity = s.first([](const file_content& c) { return c.gravity; })) {
-    if (!std::isfinite(*gravity)) throw error(s.named() + ": gravity is " + number_text(*gravity));
-    s.made.initial.gravity = *gravity;
-    s.tell("gravity", number_text(*gravity), origin::read, "the header");
-  }
+  const auto gravity = s.first([](const file_content& c) { return c.gravity; });
+  s.made.initial.gravity = gravity.value_or(0);
+  if (!std::isfinite(s.made.initial.gravity)) throw error(s.named() + ": gravity is " + number_text(*gravity));
+  s.tell("gravity", number_text(s.made.initial.gravity), gravity ? origin::read : origin::assumed,
+         gravity ? "the header" : "no file says it");
 }
 
 void gather(set_in_making& s) {

@@ -360,6 +360,13 @@ def test_the_header_says_what_h_is(tmp_path, particles):
     assert 'SmoothingLengthIs is "r", should be' in result("r").error
 
 
+def test_gravity_is_none_unless_a_file_says_it(tmp_path, particles):
+    path = gadget(tmp_path / "a.hdf5", particles)
+    assert read(path).set["gravity"] == 0 and read(path).fact["gravity"]["how"] == "assumed"
+    gadget(path, particles, header={"Gravity": 1.62})
+    assert read(path).set["gravity"] == 1.62 and read(path).fact["gravity"]["how"] == "read"
+
+
 def test_varying_h(tmp_path, particles):
     h = np.linspace(0.2, 0.29, len(particles))
     path = gadget(tmp_path / "a.hdf5", particles, h=h)
