@@ -68,9 +68,13 @@ class dialect_reader {
   /// The content of groups of one name: one, or one of each part of a snapshot.
   file_content columns(std::span<const particle_group> groups) const;
   file_content content;
-  std::optional<std::vector<double>> attribute(const std::string& group, std::string_view alternatives) const;
+  std::optional<std::vector<double>> attribute(const std::string& group, std::string_view alternatives) const {
+    return attribute(first_, group, alternatives);
+  }
 
  private:
+  static std::optional<std::vector<double>> attribute(const hdf5_file& file, const std::string& group,
+                                                      std::string_view alternatives);
   sources datasets(const hdf5_file& file, const std::string& group, std::string_view alternatives) const;
   sources told_or(const particle_group& g, std::initializer_list<const char*> quantities,
                   std::string_view alternatives) const;
@@ -85,14 +89,14 @@ class dialect_reader {
   const hints& told_;
 };
 
-std::optional<std::vector<double>> dialect_reader::attribute(const std::string& group,
-                                                             std::string_view alternatives) const {
+std::optional<std::vector<double>> dialect_reader::attribute(const hdf5_file& file, const std::string& group,
+                                                             std::string_view alternatives) {
   for (const std::string_view one : split(alternatives, '|')) {
     const std::size_t at = one.find('@');
     const std::string object = at == 0 ? group : std::string(one.substr(0, at)), name(one.substr(at + 1));
-    if (!object.empty() && !first_.has(object)) continue;
-    if (auto numbers = first_.numbers(object, name)) return numbers;
-    if (const auto text = first_.text(object, name))
+    if (!object.empty() && !file.has(object)) continue;
+    if (auto numbers = file.numbers(object, name)) return numbers;
+    if (const auto text = file.text(object, name))
       if (const auto number = number_in(*text)) return std::vector<double>{*number};
   }
   return {};
@@ -203,11 +207,10 @@ std::vector<particle_group> dialect_reader::groups_of(const hdf5_file& file) {
   }
   for (particle_group& g : all) locate(g);
   std::erase_if(all, [](const particle_group& g) { return g.rows == 0; });
-  const auto counts = attribute("", names_.counts);
+  const auto counts = attribute(file, "", names_.counts);
   for (particle_group& g : all) {
     const auto k = static_cast<std::size_t>(g.number());
-    if (&file == &first_ && counts && g.number() >= 0 && k < counts->size() &&
-        (*counts)[k] != static_cast<double>(g.rows))
+    if (counts && g.number() >= 0 && k < counts->size() && (*counts)[k] != static_cast<double>(g.rows))
       throw error(file.path() + ": " + g.x[0].dataset + " has " + std::to_string(g.rows) +
                   " rows, but the header counts " + number_text((*counts)[k]));
     g.boundary = told_boundary(g) ||

@@ -149,6 +149,9 @@ def test_a_snapshot_of_several_files(tmp_path):
     all_parts = read(*parts)
     assert all_parts.set["hash"] == read(parts[1]).set["hash"], "a file that several parts name is read once"
     assert "should both be fluid or both boundary" in read(f"{parts[0]}:fluid", f"{parts[1]}:boundary").error
+    with h5py.File(parts[2], "a") as file:
+        file["Header"].attrs["NumPart_ThisFile"] = [99, 0, 0, 0, 0, 0]
+    assert "snap.2.hdf5: PartType0/Coordinates has 100 rows, but the header counts 99" in read(parts[0]).error
     (tmp_path / "snap.2.hdf5").rename(tmp_path / "away.hdf5")
     assert "snap.2.hdf5 cannot be read" in read(tmp_path / "snap.0.hdf5").error
     assert "its name has no number" in read(tmp_path / "away.hdf5").error
