@@ -156,9 +156,11 @@ void choose_axes(set_in_making& s) {
     const bool stays = std::ranges::find(s.axes, d) != s.axes.end();
     (stays ? kept : left) += std::string(stays ? kept.empty() ? "" : ", " : left.empty() ? "" : ", ") + "xyz"[d];
   }
-  const std::string why =
-      left.empty() ? "the columns " + kept
-                   : left + " is constant; the columns " + kept + " are x" + (s.axes.size() > 1 ? " and y" : "");
+  const bool same = left.empty() && s.axes.back() + 1 == s.axes.size();
+  const std::string why = (left.empty() ? "" : left + " is constant; ") + "the columns " + kept +
+                          (same                ? ""
+                           : s.axes.size() > 1 ? " are x and y"
+                                               : " are x");
   s.tell("dim", std::to_string(s.dim()),
          s.told.dim     ? origin::given
          : said         ? origin::read
@@ -243,12 +245,15 @@ void complete_columns(set_in_making& s) {
            : read ? "the header"
                   : "rho0 dx^" + std::to_string(s.dim()));
   }
-  for (one_file& f : s.files)
+  for (one_file& f : s.files) {
+    std::string none;
     for (const std::size_t d : s.axes)
       if (f.content.v[d].empty()) {
         f.content.v[d].assign(f.rows, 0.0);
-        if (d == s.axes.front()) s.tell("velocity", "0", origin::assumed, f.name() + " has none");
+        none += (none.empty() ? "" : ", ") + std::string(1, "xyz"[d]);
       }
+    if (!none.empty()) s.tell("velocity", "0", origin::assumed, f.name() + " has none along " + none);
+  }
   if (dx == 0 && header_dx) nearest();
   if (dx == 0) {
     const auto volume = [](const file_content& c, std::size_t i) { return c.m[i] / c.rho[i]; };

@@ -28,6 +28,16 @@ std::string box_text(const std::vector<double>& low, const std::vector<double>& 
   return text;
 }
 
+/// An axis of the set, as the files call it.
+std::string named(const set_in_making& s, std::size_t d) { return std::string(1, "xyz"[s.axes[d]]); }
+
+/// Axes of the set, as the files call them.
+axes of_files(const set_in_making& s, const axes& of_set) {
+  axes on;
+  for (std::size_t d = 0; d < s.axes.size(); ++d) on.on[s.axes[d]] = of_set.on[d];
+  return on;
+}
+
 /// "x,z", "all" or "none", of the files' axes, as axes of the set.
 axes periodic_of(const set_in_making& s, const std::string& text) {
   if (text == "all") return axes::all(s.dim());
@@ -126,15 +136,15 @@ void choose_domain(set_in_making& s) {
     }
     if (!(low[d] < high[d]) || !std::isfinite(high[d] - low[d]))
       throw error(s.named() + ": the box goes from " + number_text(low[d]) + " to " + number_text(high[d]) + " along " +
-                  std::string(1, "xyz"[d]) + ", should go up");
+                  named(s, d) + ", should go up");
     if (!periodic.on[d] && (least < low[d] || most > high[d])) {
       if (!s.told.box.empty())
         throw error(s.named() + ": particles lie from " + number_text(least) + " to " + number_text(most) + " along " +
-                    std::string(1, "xyz"[d]) + ", outside of --box, which goes from " + number_text(low[d]) + " to " +
+                    named(s, d) + ", outside of --box, which goes from " + number_text(low[d]) + " to " +
                     number_text(high[d]));
       low[d] = std::min(low[d], least);
       high[d] = std::max(high[d], most);
-      widened += (widened.empty() ? "" : ", ") + std::string(1, "xyz"[d]);
+      widened += (widened.empty() ? "" : ", ") + named(s, d);
     }
   }
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -151,11 +161,11 @@ void choose_domain(set_in_making& s) {
     s.tell("box", box_text(low, high), origin::derived, "widened along " + widened + " to hold all particles");
   const bool by_habit = std::ranges::any_of(s.files, [](const one_file& f) { return f.content.periodic_by_habit; });
   if (s.told.periodic)
-    s.tell("periodic", periodic.text(), origin::given, "--periodic");
+    s.tell("periodic", of_files(s, periodic).text(), origin::given, "--periodic");
   else if (said && boxed && !by_habit)
-    s.tell("periodic", periodic.text(), origin::read, "the file");
+    s.tell("periodic", of_files(s, periodic).text(), origin::read, "the file");
   else
-    s.tell("periodic", periodic.text(), origin::assumed, "no file says it; --periodic does");
+    s.tell("periodic", of_files(s, periodic).text(), origin::assumed, "no file says it; --periodic does");
   if (s.made.wrapped > 0)
     s.tell("wrapped", std::to_string(s.made.wrapped), origin::derived,
            "particles outside of the periodic box, moved into it");

@@ -21,10 +21,10 @@
 namespace pairsum::files {
 namespace {
 
-/// A column of a dataset.
+/// A column of a dataset, and which axis it is of.
 struct source {
   std::string dataset;
-  std::size_t column = 0;
+  std::size_t column = 0, axis = 0;
 };
 using sources = std::vector<source>;
 
@@ -80,7 +80,7 @@ class dialect_reader {
                   std::string_view alternatives) const;
   void locate(particle_group& g) const;
   bool told_boundary(const particle_group& g) const;
-  void box(const std::string& group, std::size_t axes_of_file);
+  void box(const std::string& group);
   static void quantity(std::span<const particle_group> groups, sources particle_group::*which, const char* what,
                        std::span<std::vector<double>* const> to);
 
@@ -106,11 +106,11 @@ sources dialect_reader::datasets(const hdf5_file& file, const std::string& group
   for (const std::string_view one : split(alternatives, '|')) {
     sources found;
     const auto names = split(one, ',');
-    for (const std::string_view name : names) {
-      const std::string dataset = spelt(file, group, name);
-      if (dataset.empty()) break;
+    for (std::size_t axis = 0; axis < names.size(); ++axis) {
+      const std::string dataset = spelt(file, group, names[axis]);
+      if (dataset.empty()) continue;
       const std::size_t columns = names.size() > 1 ? 1 : file.shape_of(dataset).columns;
-      for (std::size_t c = 0; c < columns; ++c) found.push_back({dataset, c});
+      for (std::size_t c = 0; c < columns; ++c) found.push_back({dataset, c, names.size() > 1 ? axis : c});
     }
     if (!found.empty()) return found;
   }
@@ -121,9 +121,10 @@ sources dialect_reader::datasets(const hdf5_file& file, const std::string& group
 sources dialect_reader::told_or(const particle_group& g, std::initializer_list<const char*> quantities,
                                 std::string_view alternatives) const {
   sources found;
-  for (const char* const quantity : quantities) {
+  for (std::size_t axis = 0; axis < quantities.size(); ++axis) {
+    const std::string quantity = quantities.begin()[axis];
     const auto told = told_.columns.find(quantity);
-    if (told == told_.columns.end()) break;
+    if (told == told_.columns.end()) continue;
     const std::size_t colon = told->second.rfind(':');
     const std::string dataset = spelt(*g.file, g.path, told->second.substr(0, colon));
     const auto column = colon == told->second.npos ? 0 : number_in(told->second.substr(colon + 1)).value_or(-1);
@@ -133,7 +134,7 @@ sources dialect_reader::told_or(const particle_group& g, std::initializer_list<c
     const std::size_t columns = g.file->shape_of(dataset).columns;
     if (!(column >= 0 && column < static_cast<double>(columns)))
       throw error(g.file->path() + ": " + dataset + " has " + std::to_string(columns) + " columns, no " + told->second);
-    found.push_back({dataset, static_cast<std::size_t>(column)});
+    found.push_back({dataset, static_cast<std::size_t>(column), axis});
   }
   return found.empty() ? datasets(*g.file, g.path, alternatives) : found;
 }
@@ -236,7 +237,7 @@ std::vector<particle_group> dialect_reader::groups_of(const hdf5_file& file) {
   return meant;
 }
 
-void dialect_reader::box(const std::string& group, std::size_t axes_of_file) {
+void dialect_reader::box(const std::string& group) {
   auto &low = content.box_low, &high = content.box_high;
   const auto lows = attribute(group, names_.low), highs = attribute(group, names_.high),
              limits = attribute(group, names_.limits), edges = attribute(group, names_.edges);
@@ -249,7 +250,7 @@ void dialect_reader::box(const std::string& group, std::size_t axes_of_file) {
       high.push_back((*limits)[2 * d + 1]);
     }
   } else if (edges && std::ranges::any_of(*edges, [](double e) { return e != 0; })) {
-    high = edges->size() == 1 ? std::vector<double>(axes_of_file, edges->front()) : *edges;
+    high = edges->size() == 1 ? std::vector<double>(3, edges->front()) : *edges;
     low.assign(high.size(), 0.0);
   }
   if (low.size() != high.size())
@@ -281,7 +282,7 @@ void dialect_reader::header(const std::vector<particle_group>& groups) {
       throw error(first_.path() + ": Dimension is " + number_text(*dim) + ", should be 1, 2 or 3");
     content.dim = static_cast<int>(*dim);
   }
-  box(group, axes_of_file);
+  box(group);
   const auto support = [&](double s, origin how, const std::string& from) {
     if (!(s > 0)) throw error(first_.path() + ": " + from + " is " + number_text(s) + ", should be positive");
     content.support = s;
@@ -317,11 +318,11 @@ void dialect_reader::quantity(std::span<const particle_group> groups, sources pa
   std::size_t rows = 0, begin = 0;
   for (const particle_group& g : groups) {
     rows += g.rows;
-    if ((g.*which).size() != columns)
+    if (!std::ranges::equal(g.*which, first.*which, {}, &source::axis, &source::axis))
       throw error(g.file->path() + ": " + g.path + " has " + std::to_string((g.*which).size()) + " columns of " + what +
                   ", but " + std::to_string(columns) + " in " + first.file->path());
   }
-  for (std::size_t k = 0; k < columns; ++k) resize_column(*to[k], rows);
+  for (const source& s : first.*which) resize_column(*to[s.axis], rows);
   for (const particle_group& g : groups) {
     const sources& all = g.*which;
     for (std::size_t k = 0; k < columns;) {
@@ -330,7 +331,7 @@ void dialect_reader::quantity(std::span<const particle_group> groups, sources pa
       const std::string& dataset = all[k].dataset;
       for (; k < columns && all[k].dataset == dataset; ++k) {
         of_dataset.push_back(all[k].column);
-        places.push_back(to[k]->data() + begin);
+        places.push_back(to[all[k].axis]->data() + begin);
       }
       g.file->read(dataset, of_dataset, places);
     }
@@ -358,7 +359,7 @@ file_content dialect_reader::columns(std::span<const particle_group> groups) con
   }
   std::vector<double> kinds;
   one(&particle_group::kind, "kind", kinds);
-  c.kind.assign(c.x[0].size(), first.boundary ? particle_kind::boundary : particle_kind::fluid);
+  c.kind.assign(c.x[first.x.front().axis].size(), first.boundary ? particle_kind::boundary : particle_kind::fluid);
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (kinds[i] != 0 && kinds[i] != 1)
       throw error(first_.path() + ": the kind of particle " + std::to_string(i + 1) + " is " + number_text(kinds[i]) +

@@ -40,7 +40,7 @@ struct hints {
 struct file_content {
   std::string format, dialect;              ///< "hdf5", "gadget"
   std::string label;                        ///< of a group of a file with several: "PartType1"
-  std::array<std::vector<double>, 3> x, v;  ///< x[2] empty: 2D; v all empty: not in the file
+  std::array<std::vector<double>, 3> x, v;  ///< along the file's axes; empty: not in the file
   std::vector<double> rho, m, h;
   std::vector<particle_kind> kind;
   std::map<std::string, std::vector<double>> others;  ///< columns that hints name (boundary_kind)

@@ -240,6 +240,26 @@ def test_x_and_z_become_x_and_y(tmp_path, particles):
     assert "y is constant; the columns x, z are x and y" in result.fact["dim"]["from"]
 
 
+@pytest.mark.parametrize("kind", ["csv", "h5"])
+def test_without_y_words_mean_the_files_axes(tmp_path, kind):
+    p = Particles(50)
+    path = tmp_path / f"xz.{kind}"
+    if kind == "csv":
+        np.savetxt(path, np.column_stack([p.x[:, [0, 2]], p.v[:, [0, 2]], p.rho]), "%.17g", ",", header="x,z,vx,vz,rho", comments="")
+    else:
+        with h5py.File(path, "w") as file:
+            group = file.create_group("Step#0")
+            for name, values in [("x", p.x[:, 0]), ("z", p.x[:, 2]), ("vx", p.v[:, 0]), ("vz", p.v[:, 2]), ("rho", p.rho)]:
+                group[name] = values
+    result = read(path, H=0.3, box="0,0,0,1,5,2", periodic="z", out=tmp_path / "out.hdf")
+    assert result.code == 0, result.error
+    assert result.set["dim"] == 2 and result.set["high"] == [1, 2] and result.fact["periodic"]["value"] == "z"
+    got = columns(tmp_path / "out.hdf")
+    assert np.array_equal(got["Coordinates"][:, :2], p.x[:, [0, 2]]) and np.array_equal(got["Velocities"][:, :2], p.v[:, [0, 2]])
+    assert "the columns x, z are x and y" in result.fact["dim"]["from"]
+    assert "along which particles lie" in read(path, H=0.3, box="1,1", periodic="y").error
+
+
 def h5part(path, steps, sph_exa=False):
     with h5py.File(path, "w") as file:
         for number, p in steps.items():
