@@ -79,7 +79,6 @@ class dialect_reader {
   sources told_or(const particle_group& g, std::initializer_list<const char*> quantities,
                   std::string_view alternatives) const;
   void locate(particle_group& g) const;
-  bool told_boundary(const particle_group& g) const;
   void box(const std::string& group);
   static void quantity(std::span<const particle_group> groups, sources particle_group::*which, const char* what,
                        std::span<std::vector<double>* const> to);
@@ -148,8 +147,10 @@ void dialect_reader::locate(particle_group& g) const {
   g.m = told_or(g, {"m"}, names_.m);
   g.h = told_or(g, {"h"}, names_.h);
   g.kind = told_or(g, {"kind"}, names_.kind);
-  if (const auto rule = boundary_rule::of(told_.boundary_kind); rule && !rule->names_groups())
-    g.other = datasets(*g.file, g.path, rule->column);
+  if (const auto rule = boundary_rule::of(told_.boundary_kind)) {
+    g.kind.clear();
+    if (!rule->names_groups() && !rule->none()) g.other = datasets(*g.file, g.path, rule->column);
+  }
   for (const sources* const all : {&g.x, &g.v, &g.rho, &g.m, &g.h, &g.kind, &g.other})
     for (const source& s : *all) {
       const std::size_t rows = g.file->shape_of(s.dataset).rows;
@@ -160,13 +161,6 @@ void dialect_reader::locate(particle_group& g) const {
   for (const sources* const one : {&g.rho, &g.m, &g.h, &g.kind, &g.other})
     if (one->size() > 1)
       throw error(g.file->path() + ": " + one->front().dataset + " has several columns, should have one");
-}
-
-bool dialect_reader::told_boundary(const particle_group& g) const {
-  const auto rule = boundary_rule::of(told_.boundary_kind);
-  return rule && rule->names_groups() && std::ranges::any_of(rule->values, [&](const std::string& v) {
-           return same_word(v, g.label) || v == std::to_string(g.number());
-         });
 }
 
 /// The groups of a file that match a pattern with at most one *.
@@ -206,18 +200,22 @@ std::vector<particle_group> dialect_reader::groups_of(const hdf5_file& file) {
     if (all.empty()) throw error(file.path() + " has no step " + std::to_string(*told_.step));
     all.erase(all.begin(), all.end() - 1);
   }
-  for (particle_group& g : all) locate(g);
+  for (particle_group& g : all) {
+    locate(g);
+    if (std::ranges::find(content.groups, g.label) == content.groups.end()) content.groups.push_back(g.label);
+  }
   std::erase_if(all, [](const particle_group& g) { return g.rows == 0; });
+  const auto rule = boundary_rule::of(told_.boundary_kind);
   const auto counts = attribute(file, "", names_.counts);
   for (particle_group& g : all) {
     const auto k = static_cast<std::size_t>(g.number());
     if (counts && g.number() >= 0 && k < counts->size() && (*counts)[k] != static_cast<double>(g.rows))
       throw error(file.path() + ": " + g.x[0].dataset + " has " + std::to_string(g.rows) +
                   " rows, but the header counts " + number_text((*counts)[k]));
-    g.boundary = told_boundary(g) ||
+    g.boundary = (rule && rule->names_groups() && rule->takes(g.label)) ||
                  (names_.meant == groups_meant::all && told_.boundary_kind.empty() && names_boundary(g.label));
   }
-  if (names_.meant != groups_meant::first) return all;
+  if (names_.meant != groups_meant::first || (rule && rule->none())) return all;
   const bool fluid = std::ranges::any_of(all, [](const particle_group& g) { return g.number() == 0; });
   const auto others = std::ranges::count_if(all, [](const particle_group& g) { return !g.boundary; });
   std::string left_out;

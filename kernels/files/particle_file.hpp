@@ -48,10 +48,11 @@ struct file_content {
   std::optional<double> H, dx, h_of_all, m_of_all, m_of_boundary, rho0, B, gravity, support, time;  ///< of the header
   std::vector<double> box_low, box_high;  ///< m, an entry per axis; empty: not in the file
   std::optional<axes> periodic;
-  bool periodic_by_habit = false;  ///< no word of the file says so, but programs of its dialect do it
-  std::vector<fact> facts;         ///< what else a reader should be told
-  std::vector<file_content> more;  ///< further groups of the file, each with columns of its own
-  std::vector<std::string> parts;  ///< all files of a snapshot of several, which were read with this one
+  bool periodic_by_habit = false;   ///< no word of the file says so, but programs of its dialect do it
+  std::vector<fact> facts;          ///< what else a reader should be told
+  std::vector<file_content> more;   ///< further groups of the file, each with columns of its own
+  std::vector<std::string> groups;  ///< all groups of particles, also those that are left out
+  std::vector<std::string> parts;   ///< all files of a snapshot of several, which were read with this one
 };
 
 }  // namespace pairsum::files

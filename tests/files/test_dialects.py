@@ -321,6 +321,29 @@ def test_boundary_by_a_column(tmp_path, particles):
     assert "no column Sort" in read(path, boundary_kind="Sort=1").error
 
 
+def test_a_boundary_kind_that_nothing_has_is_refused(tmp_path, particles):
+    path = gadget(tmp_path / "a.hdf5", particles)
+    with h5py.File(path, "a") as file:
+        file["PartType0/Type"] = 3 * (np.arange(200) % 2)
+    assert "has the groups PartType0" in read(path, boundary_kind="PartType=7").error
+    assert "has the values 0, 3" in read(path, boundary_kind="Type=1,2").error
+    result = read(path, boundary_kind="Type=0,1")
+    assert result.set["fluid"] == 100 and result.fact["kinds not there"]["value"] == "1"
+    walls = pysph(tmp_path / "b.hdf5", {"fluid": Particles(50), "boundary": Particles(50, 2)})
+    assert "has the groups boundary, fluid" in read(walls, boundary_kind="name=wall").error
+    (tmp_path / "c.csv").write_text("x,y,rho,Mk\n0,0,1,1\n1,1,1,10\n0,1,1,10\n")
+    assert "has the values 1, 10" in read(tmp_path / "c.csv", boundary_kind="Mk=11", H=1).error
+
+
+def test_boundary_kind_none_takes_all_groups_as_fluid(tmp_path, particles):
+    path = gadget(tmp_path / "a.hdf5", particles)
+    with h5py.File(path, "a") as file:
+        file.copy("PartType0", "PartType3")
+        file["Header"].attrs["NumPart_ThisFile"] = [200, 0, 0, 200, 0, 0]
+    result = read(path, boundary_kind="none")
+    assert result.set["fluid"] == 400 and "left out" not in result.fact
+
+
 def test_h_is_that_of_the_fluid(tmp_path):
     fluid, wall = Particles(100), Particles(50, 2)
     wall.h[:] = np.append(np.zeros(49), 9)

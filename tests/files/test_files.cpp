@@ -72,6 +72,7 @@ TEST(in_child, hands_over_every_member) {
   told.periodic_by_habit = true;
   told.facts = {{"what", "value", origin::derived, "from"}};
   told.parts = {"a.0", "a.1"};
+  told.groups = {"fluid", "wall"};
   const file_content got = in_two_s([&] { return told; });
   EXPECT_EQ(got.format + got.dialect, "fd");
   EXPECT_EQ(got.x, told.x);
@@ -91,6 +92,7 @@ TEST(in_child, hands_over_every_member) {
   EXPECT_EQ(got.periodic, told.periodic);
   EXPECT_TRUE(got.periodic_by_habit);
   EXPECT_EQ(got.parts, told.parts);
+  EXPECT_EQ(got.groups, told.groups);
   ASSERT_EQ(got.more.size(), 2u);
   EXPECT_EQ(got.more[1].label, "PartType1");
   EXPECT_EQ(got.more[1].rho, std::vector<double>{10});
