@@ -112,7 +112,7 @@ double positive(const std::string& what, double value) {
 void choose_kinds(set_in_making& s) {
   const auto rule = boundary_rule::of(s.told.boundary_kind);
   rule_use use(rule);
-  bool assumed = false;
+  bool assumed = false, by_name = false;
   for (one_file& f : s.files) {
     std::vector<particle_kind>& kind = f.content.kind;
     if (f.by_path) {
@@ -125,6 +125,7 @@ void choose_kinds(set_in_making& s) {
       kind.assign(f.rows, particle_kind::fluid);
       assumed = true;
     }
+    by_name = by_name || (f.content.kinds_by_name && !f.by_path);
     if (kind.size() != f.rows) throw error(f.name() + ": kinds and positions differ in number");
     f.content.others.clear();
   }
@@ -137,8 +138,9 @@ void choose_kinds(set_in_making& s) {
                 ": no particle is fluid; --boundary-kind none takes all as fluid, PATH:fluid those of a file");
   const bool by_option =
       rule.has_value() || std::ranges::any_of(s.files, [](const one_file& f) { return f.by_path.has_value(); });
-  const origin how = by_option ? origin::given : assumed ? origin::assumed : origin::read;
+  const origin how = by_option ? origin::given : assumed || by_name ? origin::assumed : origin::read;
   const char* const from = by_option ? "by option"
+                           : by_name ? "by the names of the groups; --boundary-kind says otherwise"
                            : assumed ? "nothing says what is boundary; --boundary-kind does"
                                      : "the file";
   s.tell("fluid", std::to_string(fluid), how, from);

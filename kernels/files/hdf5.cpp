@@ -212,8 +212,14 @@ std::vector<particle_group> dialect_reader::groups_of(const hdf5_file& file) {
     if (counts && g.number() >= 0 && k < counts->size() && (*counts)[k] != static_cast<double>(g.rows))
       throw error(file.path() + ": " + g.x[0].dataset + " has " + std::to_string(g.rows) +
                   " rows, but the header counts " + number_text((*counts)[k]));
-    g.boundary = (rule && rule->names_groups() && rule->takes(g.label)) ||
-                 (names_.meant == groups_meant::all && told_.boundary_kind.empty() && names_boundary(g.label));
+    g.boundary = rule && rule->names_groups() && rule->takes(g.label);
+    if (names_.meant != groups_meant::all || rule || !g.kind.empty()) continue;
+    const kind_word kind = kind_named(g.label);
+    if (kind == kind_word::body)
+      throw error(file.path() + ": the group " + g.label +
+                  " is a body that moves, by its name, which pairsum does not sum; --boundary-kind name=" + g.label +
+                  " takes it for boundary, none all particles for fluid");
+    g.boundary = kind == kind_word::boundary;
   }
   if (names_.meant != groups_meant::first || (rule && rule->none())) return all;
   const bool fluid = std::ranges::any_of(all, [](const particle_group& g) { return g.number() == 0; });
@@ -357,7 +363,12 @@ file_content dialect_reader::columns(std::span<const particle_group> groups) con
   }
   std::vector<double> kinds;
   one(&particle_group::kind, "kind", kinds);
-  c.kind.assign(c.x[first.x.front().axis].size(), first.boundary ? particle_kind::boundary : particle_kind::fluid);
+  const bool by_rule = !told_.boundary_kind.empty();
+  const bool by_name = names_.meant == groups_meant::all,
+             by_type = names_.meant == groups_meant::first && first.number() == 0;
+  if (by_rule || by_name || by_type || !kinds.empty())
+    c.kind.assign(c.x[first.x.front().axis].size(), first.boundary ? particle_kind::boundary : particle_kind::fluid);
+  c.kinds_by_name = by_name && !by_rule && kinds.empty();
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (kinds[i] != 0 && kinds[i] != 1)
       throw error(first_.path() + ": the kind of particle " + std::to_string(i + 1) + " is " + number_text(kinds[i]) +

@@ -48,7 +48,11 @@ std::span<const hdf5_dialect> hdf5_dialects();
 /// Source: Dehnen and Aly 2012 (doi:10.1111/j.1365-2966.2012.21439.x), table 1.
 double gamma_of(std::string_view function, int dim);
 
-/// Is a group of PySPH boundary? Its name says so: "boundary", "wall", "obstacle", ...
-bool names_boundary(std::string_view group);
+/// What the name of a group of particles says of their kind.
+enum class kind_word { none, fluid, boundary, body };
+
+/// By the words of a name, between digits and signs; those for fluid come first: "fluid_box" is fluid, "wall_2"
+/// boundary, "rigid_body" a body that moves, "sandbox" none of them.
+kind_word kind_named(std::string_view group);
 
 }  // namespace pairsum::files

@@ -49,6 +49,7 @@ struct file_content {
   std::vector<double> box_low, box_high;  ///< m, an entry per axis; empty: not in the file
   std::optional<axes> periodic;
   bool periodic_by_habit = false;   ///< no word of the file says so, but programs of its dialect do it
+  bool kinds_by_name = false;       ///< a guess by names of groups
   std::vector<fact> facts;          ///< what else a reader should be told
   std::vector<file_content> more;   ///< further groups of the file, each with columns of its own
   std::vector<std::string> groups;  ///< all groups of particles, also those that are left out

@@ -192,6 +192,21 @@ def test_pysph_kinds_by_name(tmp_path):
     assert read(path, boundary_kind="name=obstacle").set["fluid"] == 160
 
 
+def test_kinds_by_name_are_assumed(tmp_path):
+    def kinds(*names, **options):
+        return read(pysph(tmp_path / "a.hdf5", {name: Particles(20, k) for k, name in enumerate(names)}), **options)
+
+    result = kinds("fluid_box", "wall2", "Boundaries", "sandbox")
+    assert result.set["fluid"] == 40
+    assert result.fact["boundary"]["how"] == "assumed" and "by the names" in result.fact["boundary"]["from"]
+    assert "the group rigid_body is a body that moves" in kinds("fluid", "rigid_body").error
+    result = kinds("fluid", "rigid_body", boundary_kind="name=rigid_body")
+    assert result.set["fluid"] == 20 and result.fact["boundary"]["how"] == "given"
+    path = h5part(tmp_path / "b.h5", {0: Particles(20)})
+    assert read(path).fact["fluid"]["how"] == "assumed", "H5Part says nothing of kinds"
+    assert read(gadget(tmp_path / "c.hdf5", Particles(20))).fact["fluid"]["how"] == "read"
+
+
 def test_what_one_group_lacks_is_filled_there_alone(tmp_path):
     fluid, wall = Particles(100), Particles(60, 2)
     path = pysph(tmp_path / "a.hdf5", {"fluid": fluid, "wall": wall}, leave=[("wall", c) for c in ("u", "v", "w", "rho", "m")])

@@ -70,6 +70,7 @@ TEST(in_child, hands_over_every_member) {
   told.box_high = {3, 4};
   told.periodic = axes{{true, false, true}};
   told.periodic_by_habit = true;
+  told.kinds_by_name = true;
   told.facts = {{"what", "value", origin::derived, "from"}};
   told.parts = {"a.0", "a.1"};
   told.groups = {"fluid", "wall"};
@@ -91,6 +92,7 @@ TEST(in_child, hands_over_every_member) {
   EXPECT_EQ(got.box_high, told.box_high);
   EXPECT_EQ(got.periodic, told.periodic);
   EXPECT_TRUE(got.periodic_by_habit);
+  EXPECT_TRUE(got.kinds_by_name);
   EXPECT_EQ(got.parts, told.parts);
   EXPECT_EQ(got.groups, told.groups);
   ASSERT_EQ(got.more.size(), 2u);
