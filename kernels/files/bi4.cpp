@@ -64,17 +64,17 @@ void read_domain(const bi4_items& file, const std::vector<int>& kept, file_conte
         return low->number[axis] < high->number[axis] && std::isfinite(high->number[axis] - low->number[axis]);
       });
   if (has_box)
-    for (const int d : kept) {
-      content.box_low.push_back(low->number[static_cast<std::size_t>(d)]);
-      content.box_high.push_back(high->number[static_cast<std::size_t>(d)]);
+    for (std::size_t d = 0; d < 3; ++d) {
+      content.box_low.push_back(low->number[d]);
+      content.box_high.push_back(high->number[d]);
     }
   if (!mode || !(mode->number[0] >= 0 && mode->number[0] <= all_axes)) return;
   const int bits = static_cast<int>(mode->number[0]);
   content.periodic = axes{};
-  for (std::size_t axis = 0; axis < kept.size(); ++axis) {
-    const auto d = static_cast<std::size_t>(kept[axis]);
-    if ((bits & (1 << d)) == 0) continue;
-    content.periodic->on[axis] = true;
+  for (const int axis : kept) {
+    const auto d = static_cast<std::size_t>(axis);
+    if ((bits & (1 << axis)) == 0) continue;
+    content.periodic->on[d] = true;
     const std::string name = std::string("Peri") + "XYZ"[d] + "inc";
     const bi4_value* to_image = file.value(name);
     if (!to_image) continue;
@@ -83,8 +83,8 @@ void read_domain(const bi4_items& file, const std::vector<int>& kept, file_conte
         file.refuse("has images shifted along another axis (" + name + "); pairsum's boxes are straight");
     const double period = std::abs(to_image->number[d]);
     if (!has_box || !(period > 0 && std::isfinite(period))) continue;
-    content.box_high[axis] = content.box_low[axis] + period;
-    if (!(content.box_high[axis] > content.box_low[axis]))
+    content.box_high[d] = content.box_low[d] + period;
+    if (!(content.box_high[d] > content.box_low[d]))
       file.refuse("has a period of " + number_text(period) + " (" + name + "), which is nothing beside MapPosMin");
   }
 }
@@ -131,8 +131,7 @@ file_content read(const std::string& path, const hints& told) {
   read_domain(file, kept, content);
   const auto vectors = [&](std::string_view name, std::array<std::vector<double>, 3>& to) {
     auto all = columns(name, 3);
-    for (std::size_t axis = 0; axis < kept.size(); ++axis)
-      to[axis] = std::move(all[static_cast<std::size_t>(kept[axis])]);
+    for (const int d : kept) to[static_cast<std::size_t>(d)] = std::move(all[static_cast<std::size_t>(d)]);
   };
   vectors(position, content.x);
   if (file.array("Vel")) vectors("Vel", content.v);

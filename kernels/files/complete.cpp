@@ -1,6 +1,7 @@
-// What is made of what files say, but for the domain: kinds, axes, density, mass, support radius.
+// What is made of what files say, but for support radius and domain: kinds, axes, density, mass.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/names.hpp>
@@ -11,9 +12,7 @@
 namespace pairsum::files {
 namespace {
 
-constexpr double widest_h = 1.5;  ///< largest h over smallest that one H for all may stand for
-
-std::string row_text(const one_file& f, std::size_t i) { return f.path + ": particle " + std::to_string(i + 1); }
+std::string row_text(const one_file& f, std::size_t i) { return f.name() + ": particle " + std::to_string(i + 1); }
 
 template <class Column>
 double median_of(Column values) {
@@ -21,14 +20,6 @@ double median_of(Column values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
-}
-
-/// f(file, row) for every fluid particle.
-template <class F>
-void each_fluid(const set_in_making& s, F&& f) {
-  for (const one_file& file : s.files)
-    for (std::size_t i = 0; i < file.rows; ++i)
-      if (file.content.kind[i] == particle_kind::fluid) f(file.content, i);
 }
 
 /// Values of the fluid, value(file, row).
@@ -39,7 +30,7 @@ std::vector<double> of_fluid(const set_in_making& s, F&& value) {
   for (const one_file& f : s.files)
     n += static_cast<std::size_t>(std::ranges::count(f.content.kind, particle_kind::fluid));
   all.reserve(n);
-  each_fluid(s, [&](const file_content& c, std::size_t i) { all.push_back(value(c, i)); });
+  s.each_fluid([&](const file_content& c, std::size_t i) { all.push_back(value(c, i)); });
   return all;
 }
 
@@ -53,57 +44,103 @@ double spacing_of_fluid(const set_in_making& s) {
   return nearest_spacing(columns);
 }
 
-bool all_have(const set_in_making& s, std::vector<double> file_content::*column) {
-  return std::ranges::none_of(s.files, [&](const one_file& f) { return (f.content.*column).empty(); });
-}
+/// What --boundary-kind does to a set, and whether it is about anything there.
+class rule_use {
+ public:
+  explicit rule_use(const std::optional<boundary_rule>& rule) : rule_(rule) {
+    if (rule) used_.resize(rule->values.size());
+  }
 
-double positive(const char* option, double value) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw error(std::string(option) + " is " + number_text(value) + ", should be a positive number");
-  return value;
-}
+  void apply(one_file& f) {
+    const auto column = f.content.others.find(rule_->column);
+    if (column != f.content.others.end()) return by_column(f, column->second);
+    if (!rule_->names_groups() || f.content.groups.empty())
+      throw error(f.name() + " has no column " + rule_->column + ", which --boundary-kind names");
+    for (const std::string& group : f.content.groups) {
+      there_.insert(group);
+      for (std::size_t k = 0; k < used_.size(); ++k)
+        if (boundary_rule{rule_->column, {rule_->values[k]}}.takes(group)) used_[k] = true;
+    }
+  }
+
+  /// Throws where no value is there, and tells of those that are not.
+  void check(set_in_making& s) const {
+    if (there_.empty()) return;
+    std::string unused;
+    for (std::size_t k = 0; k < used_.size(); ++k)
+      if (!used_[k]) unused += (unused.empty() ? "" : ", ") + rule_->values[k];
+    if (std::ranges::find(used_, true) == used_.end())
+      throw error("--boundary-kind is \"" + s.told.boundary_kind + "\", but " + s.named() + " has the " +
+                  (rule_->names_groups() ? "groups " : "values ") + join(std::vector(there_.begin(), there_.end())) +
+                  (there_.size() == most_told ? ", ..." : ""));
+    if (!unused.empty()) s.tell("kinds not there", unused, origin::given, "--boundary-kind");
+  }
+
+ private:
+  static constexpr std::size_t most_told = 20;
+
+  void by_column(one_file& f, const std::vector<double>& column) {
+    std::vector<double> values;
+    for (const std::string& v : rule_->values) {
+      const auto number = number_in(v);
+      if (!number) throw error("--boundary-kind: \"" + v + "\" should be a number");
+      values.push_back(*number);
+    }
+    f.content.kind.assign(f.rows, particle_kind::fluid);
+    for (std::size_t i = 0; i < f.rows; ++i) {
+      const auto at = std::ranges::find(values, column[i]);
+      if ((i == 0 || column[i] != column[i - 1]) && there_.size() < most_told) there_.insert(number_text(column[i]));
+      if (at == values.end()) continue;
+      f.content.kind[i] = particle_kind::boundary;
+      used_[static_cast<std::size_t>(at - values.begin())] = true;
+    }
+  }
+
+  const std::optional<boundary_rule>& rule_;
+  std::vector<bool> used_;
+  std::set<std::string> there_;
+};
 
 }  // namespace
 
-void choose_kinds(set_in_making& s, const std::vector<std::optional<particle_kind>>& by_path) {
+double positive(const std::string& what, double value) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw error(what + " is " + number_text(value) + ", should be a positive number");
+  return value;
+}
+
+void choose_kinds(set_in_making& s) {
   const auto rule = boundary_rule::of(s.told.boundary_kind);
-  bool assumed = false;
-  for (std::size_t k = 0; k < s.files.size(); ++k) {
-    one_file& f = s.files[k];
+  rule_use use(rule);
+  bool assumed = false, by_name = false;
+  for (one_file& f : s.files) {
     std::vector<particle_kind>& kind = f.content.kind;
-    if (by_path[k]) {
-      kind.assign(f.rows, *by_path[k]);
+    if (f.by_path) {
+      kind.assign(f.rows, *f.by_path);
     } else if (rule && rule->none()) {
       kind.assign(f.rows, particle_kind::fluid);
-    } else if (rule && !rule->names_groups()) {
-      const auto column = f.content.others.find(rule->column);
-      if (column == f.content.others.end())
-        throw error(f.path + " has no column " + rule->column + ", which --boundary-kind names");
-      kind.assign(f.rows, particle_kind::fluid);
-      std::vector<double> values;
-      for (const std::string& v : rule->values) {
-        const auto number = number_in(v);
-        if (!number) throw error("--boundary-kind: \"" + v + "\" should be a number");
-        values.push_back(*number);
-      }
-      for (std::size_t i = 0; i < f.rows; ++i)
-        if (std::ranges::find(values, column->second[i]) != values.end()) kind[i] = particle_kind::boundary;
+    } else if (rule) {
+      use.apply(f);
     } else if (kind.empty()) {
       kind.assign(f.rows, particle_kind::fluid);
       assumed = true;
     }
-    if (kind.size() != f.rows) throw error(f.path + ": kinds and positions differ in number");
+    by_name = by_name || (f.content.kinds_by_name && !f.by_path);
+    if (kind.size() != f.rows) throw error(f.name() + ": kinds and positions differ in number");
     f.content.others.clear();
   }
+  use.check(s);
   std::size_t fluid = 0, boundary = 0;
   for (const one_file& f : s.files)
     for (const particle_kind k : f.content.kind) (k == particle_kind::fluid ? fluid : boundary)++;
   if (fluid == 0)
     throw error(s.named() +
                 ": no particle is fluid; --boundary-kind none takes all as fluid, PATH:fluid those of a file");
-  const bool by_option = rule.has_value() || std::ranges::any_of(by_path, [](const auto& k) { return k.has_value(); });
-  const origin how = by_option ? origin::given : assumed ? origin::assumed : origin::read;
+  const bool by_option =
+      rule.has_value() || std::ranges::any_of(s.files, [](const one_file& f) { return f.by_path.has_value(); });
+  const origin how = by_option ? origin::given : assumed || by_name ? origin::assumed : origin::read;
   const char* const from = by_option ? "by option"
+                           : by_name ? "by the names of the groups; --boundary-kind says otherwise"
                            : assumed ? "nothing says what is boundary; --boundary-kind does"
                                      : "the file";
   s.tell("fluid", std::to_string(fluid), how, from);
@@ -118,8 +155,9 @@ void check_numbers(set_in_making& s) {
       if (must_be_positive && std::ranges::all_of(column, [](double a) { return a == 0; }))
         std::vector<double>().swap(column);
       for (std::size_t i = 0; i < column.size(); ++i)
-        if ((!std::isfinite(column[i]) || (must_be_positive && !(column[i] > 0))) &&
-            !(of_fluid_alone && c.kind[i] != particle_kind::fluid))
+        if (c.kind[i] != particle_kind::fluid && (of_fluid_alone || (must_be_positive && column[i] == 0)))
+          continue;  // a wall that has none
+        else if (!std::isfinite(column[i]) || (must_be_positive && !(column[i] > 0)))
           throw error(row_text(f, i) + " has " + what + " = " + number_text(column[i]) + ", should be " +
                       (must_be_positive ? "positive and finite" : "finite"));
     };
@@ -169,9 +207,11 @@ void choose_axes(set_in_making& s) {
     const bool stays = std::ranges::find(s.axes, d) != s.axes.end();
     (stays ? kept : left) += std::string(stays ? kept.empty() ? "" : ", " : left.empty() ? "" : ", ") + "xyz"[d];
   }
-  const std::string why =
-      left.empty() ? "the columns " + kept
-                   : left + " is constant; the columns " + kept + " are x" + (s.axes.size() > 1 ? " and y" : "");
+  const bool same = left.empty() && s.axes.back() + 1 == s.axes.size();
+  const std::string why = (left.empty() ? "" : left + " is constant; ") + "the columns " + kept +
+                          (same                ? ""
+                           : s.axes.size() > 1 ? " are x and y"
+                                               : " are x");
   s.tell("dim", std::to_string(s.dim()),
          s.told.dim     ? origin::given
          : said         ? origin::read
@@ -186,8 +226,12 @@ void choose_axes(set_in_making& s) {
 void complete_columns(set_in_making& s) {
   const hints& told = s.told;
   tait& eos = s.made.initial.eos;
-  const bool has_rho = all_have(s, &file_content::rho), has_m = all_have(s, &file_content::m);
-  const auto header_m = s.first([](const file_content& c) { return c.m_of_all; });
+  double density_sum = 0, with_density = 0;
+  s.each_fluid([&](const file_content& c, std::size_t i) {
+    if (c.rho.empty()) return;
+    density_sum += c.rho[i];
+    ++with_density;
+  });
   const auto header_dx = s.first([](const file_content& c) { return c.dx; });
   double& dx = s.made.dx;
   const auto nearest = [&] {
@@ -203,45 +247,47 @@ void complete_columns(set_in_making& s) {
     return std::pow(dx, s.dim());
   };
   const auto header_rho0 = s.first([](const file_content& c) { return c.rho0; });
-  const std::optional<double> one_mass = told.mass ? told.mass : header_m;
   if (told.rho0) {
     eos.rho0 = positive("--rho0", *told.rho0);
     s.tell("rho0", number_text(eos.rho0), origin::given, "--rho0");
   } else if (header_rho0) {
     eos.rho0 = positive("rho0 of the header", *header_rho0);
     s.tell("rho0", number_text(eos.rho0), origin::read, "the header");
-  } else if (has_rho) {
-    double sum = 0, n = 0;
-    each_fluid(s, [&](const file_content& c, std::size_t i) {
-      sum += c.rho[i];
-      ++n;
-    });
-    eos.rho0 = sum / n;
+  } else if (with_density > 0) {
+    eos.rho0 = density_sum / with_density;
     s.tell("rho0", number_text(eos.rho0), origin::derived, "mean density of the fluid");
-  } else if (one_mass || has_m) {
+  } else {
     std::vector<double> masses;
-    if (!one_mass) masses = of_fluid(s, [](const file_content& c, std::size_t i) { return c.m[i]; });
-    eos.rho0 = positive("the density of masses and spacing",
-                        (one_mass ? *one_mass : median_of(std::move(masses))) / nearest());
+    if (told.mass) masses = {*told.mass};
+    s.each_fluid([&](const file_content& c, std::size_t i) {
+      if (!told.mass && (!c.m.empty() || c.m_of_all)) masses.push_back(c.m.empty() ? *c.m_of_all : c.m[i]);
+    });
+    if (masses.empty())
+      throw error(s.named() + ": there is neither density nor mass; --rho0 says the density, 1000 for water in kg/m3");
+    eos.rho0 = positive("the density of masses and spacing", median_of(std::move(masses)) / nearest());
     s.tell("rho0", number_text(eos.rho0), origin::derived,
            "median mass of the fluid over dx^" + std::to_string(s.dim()));
-  } else {
-    throw error(s.named() + ": there is neither density nor mass; --rho0 says the density, 1000 for water in kg/m3");
   }
-  for (one_file& f : s.files)
-    if (f.content.rho.empty()) {
-      f.content.rho.assign(f.rows, eos.rho0);
-      s.tell("density", number_text(eos.rho0), origin::assumed, f.path + " has none: rho0");
-    }
   for (one_file& f : s.files) {
-    if (!f.content.m.empty() && !told.mass) continue;
+    std::vector<double>& rho = f.content.rho;
+    const auto walls = std::ranges::count(rho, 0.0);
+    if (!rho.empty() && walls == 0) continue;
+    s.tell(
+        "density", number_text(eos.rho0), origin::assumed,
+        f.name() + (rho.empty() ? " has none: rho0" : ": " + std::to_string(walls) + " of the walls have none: rho0"));
+    rho.resize(f.rows, 0.0);
+    std::ranges::replace(rho, 0.0, eos.rho0);
+  }
+  for (one_file& f : s.files) {
+    if (told.mass) f.content.m.clear();
+    if (!f.content.m.empty() && std::ranges::count(f.content.m, 0.0) == 0) continue;
     const auto header_boundary = f.content.m_of_boundary;
     const bool given = told.mass.has_value(), read = !given && f.content.m_of_all.has_value();
     const double fluid = positive("the mass", given ? *told.mass : read ? *f.content.m_of_all : eos.rho0 * nearest());
     const double boundary = !given && header_boundary ? positive("the mass of boundary", *header_boundary) : fluid;
-    f.content.m.resize(f.rows);
+    f.content.m.resize(f.rows, 0.0);
     for (std::size_t i = 0; i < f.rows; ++i)
-      f.content.m[i] = f.content.kind[i] == particle_kind::fluid ? fluid : boundary;
+      if (f.content.m[i] == 0) f.content.m[i] = f.content.kind[i] == particle_kind::fluid ? fluid : boundary;
     s.tell("mass", number_text(fluid) + (boundary == fluid ? "" : ", of boundary " + number_text(boundary)),
            given  ? origin::given
            : read ? origin::read
@@ -250,12 +296,15 @@ void complete_columns(set_in_making& s) {
            : read ? "the header"
                   : "rho0 dx^" + std::to_string(s.dim()));
   }
-  for (one_file& f : s.files)
+  for (one_file& f : s.files) {
+    std::string none;
     for (const std::size_t d : s.axes)
       if (f.content.v[d].empty()) {
         f.content.v[d].assign(f.rows, 0.0);
-        if (d == s.axes.front()) s.tell("velocity", "0", origin::assumed, f.path + " has none");
+        none += (none.empty() ? "" : ", ") + std::string(1, "xyz"[d]);
       }
+    if (!none.empty()) s.tell("velocity", "0", origin::assumed, f.name() + " has none along " + none);
+  }
   if (dx == 0 && header_dx) nearest();
   if (dx == 0) {
     const auto volume = [](const file_content& c, std::size_t i) { return c.m[i] / c.rho[i]; };
@@ -274,57 +323,11 @@ void complete_columns(set_in_making& s) {
          told.B     ? "by option"
          : header_B ? "the header"
                     : "speed of sound of " + number_text(eos.sound_speed0()) + " m/s");
-  if (const auto gravity = s.first([](const file_content& c) { return c.gravity; })) {
-    if (!std::isfinite(*gravity)) throw error(s.named() + ": gravity is " + number_text(*gravity));
-    s.made.initial.gravity = *gravity;
-    s.tell("gravity", number_text(*gravity), origin::read, "the header");
-  }
-}
-
-void choose_H(set_in_making& s) {
-  const hints& told = s.told;
-  double& H = s.made.initial.H;
-  const auto said = s.first([](const file_content& c) { return c.support; });
-  const double support = told.support ? positive("--support", *told.support) : said.value_or(2);
-  const std::string factor = number_text(support) + " h";
-  const auto take = [&](double value, origin how, const std::string& from) {
-    H = value;
-    s.tell("H", number_text(H), how, from);
-  };
-  if (told.H) return take(positive("--H", *told.H), origin::given, "--H");
-  if (told.h)
-    return take(support * positive("--h", *told.h), origin::given,
-                factor + (told.support ? " by --support"
-                          : said       ? ""
-                                       : ", assumed"));
-  std::vector<double> h;
-  each_fluid(s, [&](const file_content& c, std::size_t i) {
-    if (!c.h.empty()) h.push_back(c.h[i]);
-  });
-  const auto of_all = s.first([](const file_content& c) { return c.h_of_all; });
-  if (h.empty() && of_all)
-    return take(support * positive("h of the header", *of_all), support == 1 ? origin::read : origin::derived,
-                support == 1 ? "the header" : factor + " of the header");
-  if (h.empty())
-    throw error(s.named() +
-                ": nothing says the support radius; --H does, in m, or --h with --support; the spacing is " +
-                number_text(s.made.dx) + " m");
-  if (!told.support && !said)
-    throw error(
-        s.named() +
-        ": the smoothing kernel is unknown, so h does not say the support radius; --support does, as H / h, or --H");
-  const auto [low, high] = std::ranges::minmax(h);
-  const std::string spread = number_text(low) + " to " + number_text(high) + ", a factor of " +
-                             number_text(std::round(high / low * 1000) / 1000);
-  if (high > widest_h * low)
-    throw error(s.named() + ": h goes from " + spread + ", and pairsum has one H for all particles, so " +
-                number_text(widest_h) + " is the most; --H takes a length all the same");
-  const double q = told.h_quantile.value_or(1);
-  if (!(q > 0 && q <= 1)) throw error("--h-quantile is " + number_text(q) + ", should be above 0 and at most 1");
-  const auto at = h.begin() + static_cast<std::ptrdiff_t>(std::ceil(q * static_cast<double>(h.size())) - 1);
-  std::ranges::nth_element(h, at);
-  s.tell("h", spread, origin::read, "the column h of the fluid");
-  take(support * *at, origin::derived, factor + (q == 1 ? ", of the largest" : ", of the quantile " + number_text(q)));
+  const auto gravity = s.first([](const file_content& c) { return c.gravity; });
+  s.made.initial.gravity = gravity.value_or(0);
+  if (!std::isfinite(s.made.initial.gravity)) throw error(s.named() + ": gravity is " + number_text(*gravity));
+  s.tell("gravity", number_text(s.made.initial.gravity), gravity ? origin::read : origin::assumed,
+         gravity ? "the header" : "no file says it");
 }
 
 void gather(set_in_making& s) {

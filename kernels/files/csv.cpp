@@ -191,23 +191,24 @@ file_content read(const std::string& path, const hints& told) {
                  header.listed() + "; --column vx=NAME says which others");
   read_lines(lines, header, columns, content);
 
-  std::size_t axis = 0, v_axis = 0;
+  std::ptrdiff_t velocities = 0;
   for (column& c : columns) {
+    const auto axis = static_cast<std::size_t>(c.quantity ? std::max(c.quantity->axis, 0) : 0);
     if (!c.quantity)
       content.others[boundary_rule::of(told.boundary_kind)->column] = std::move(c.numbers);
     else if (c.must())
-      content.x[axis++] = std::move(c.numbers);
-    else if (c.quantity->axis >= 0 && !c.empty)
-      content.v[v_axis++] = std::move(c.numbers);
-    else if (c.is("rho"))
+      content.x[axis] = std::move(c.numbers);
+    else if (c.quantity->axis >= 0) {
+      velocities += !c.empty;
+      content.v[axis] = std::move(c.numbers);
+    } else if (c.is("rho"))
       content.rho = std::move(c.numbers);
     else if (c.is("m"))
       content.m = std::move(c.numbers);
     else if (c.is("h"))
       content.h = std::move(c.numbers);
   }
-  if (v_axis != 0 && v_axis != static_cast<std::size_t>(speeds))
-    throw error(path + " has velocities of which some are empty");
+  if (velocities != 0 && velocities != speeds) throw error(path + " has velocities of which some are empty");
   return content;
 }
 

@@ -28,6 +28,16 @@ std::string box_text(const std::vector<double>& low, const std::vector<double>& 
   return text;
 }
 
+/// An axis of the set, as the files call it.
+std::string named(const set_in_making& s, std::size_t d) { return std::string(1, "xyz"[s.axes[d]]); }
+
+/// Axes of the set, as the files call them.
+axes of_files(const set_in_making& s, const axes& of_set) {
+  axes on;
+  for (std::size_t d = 0; d < s.axes.size(); ++d) on.on[s.axes[d]] = of_set.on[d];
+  return on;
+}
+
 /// "x,z", "all" or "none", of the files' axes, as axes of the set.
 axes periodic_of(const set_in_making& s, const std::string& text) {
   if (text == "all") return axes::all(s.dim());
@@ -69,21 +79,35 @@ void read_box(set_in_making& s, std::vector<double>& low, std::vector<double>& h
     s.tell("box", box_text(low, high), origin::given, "--box");
     return;
   }
-  for (const one_file& f : s.files)
-    if (!f.content.box_low.empty()) {
-      const auto a = of_axes(s, f.content.box_low), b = of_axes(s, f.content.box_high);
-      if (!a || !b) throw error(f.path + ": the box has fewer axes than particles; --box says it");
+  const one_file* first = nullptr;
+  for (const one_file& f : s.files) {
+    if (f.content.box_low.empty()) continue;
+    const auto a = of_axes(s, f.content.box_low), b = of_axes(s, f.content.box_high);
+    if (!a || !b) throw error(f.path + ": the box has fewer axes than particles; --box says it");
+    if (!std::ranges::equal(*a, *b, std::ranges::not_equal_to())) continue;  // a box without edges is none
+    if (!first) {
+      first = &f;
       low = *a;
       high = *b;
-      bool flat = false;
-      for (std::size_t d = 0; d < low.size(); ++d) flat = flat || low[d] == high[d];
-      if (!flat) {
-        s.tell("box", box_text(low, high), origin::read, "the header of " + f.path);
-        return;
-      }
-      low.clear();  // a box without edges is none
-      high.clear();
+      s.tell("box", box_text(low, high), origin::read, "the header of " + f.path);
+    } else if (low != *a || high != *b) {
+      throw error(f.path + " has the box " + box_text(*a, *b) + ", but " + first->path + " has " + box_text(low, high) +
+                  "; files of a set should have one, and --box says which");
     }
+  }
+}
+
+/// Along which axes files that have a box say that it is periodic.
+std::optional<axes> read_periodic(const set_in_making& s) {
+  const one_file* first = nullptr;
+  for (const one_file& f : s.files) {
+    if (f.content.box_low.empty() || !f.content.periodic) continue;
+    if (first && *first->content.periodic != *f.content.periodic)
+      throw error(f.path + " is periodic along " + f.content.periodic->text() + ", but " + first->path + " along " +
+                  first->content.periodic->text() + "; --periodic says what the set is");
+    if (!first) first = &f;
+  }
+  return first ? first->content.periodic : std::nullopt;
 }
 
 }  // namespace
@@ -94,7 +118,7 @@ void choose_domain(set_in_making& s) {
   std::vector<double>&low = made.omega_low, &high = made.omega_high;
   read_box(s, low, high);
   const bool boxed = !low.empty();
-  const auto said = s.first([](const file_content& c) { return c.periodic; });
+  const auto said = s.told.periodic ? std::nullopt : read_periodic(s);
   axes periodic;
   if (s.told.periodic) {
     periodic = periodic_of(s, *s.told.periodic);
@@ -112,15 +136,15 @@ void choose_domain(set_in_making& s) {
     }
     if (!(low[d] < high[d]) || !std::isfinite(high[d] - low[d]))
       throw error(s.named() + ": the box goes from " + number_text(low[d]) + " to " + number_text(high[d]) + " along " +
-                  std::string(1, "xyz"[d]) + ", should go up");
+                  named(s, d) + ", should go up");
     if (!periodic.on[d] && (least < low[d] || most > high[d])) {
       if (!s.told.box.empty())
         throw error(s.named() + ": particles lie from " + number_text(least) + " to " + number_text(most) + " along " +
-                    std::string(1, "xyz"[d]) + ", outside of --box, which goes from " + number_text(low[d]) + " to " +
+                    named(s, d) + ", outside of --box, which goes from " + number_text(low[d]) + " to " +
                     number_text(high[d]));
       low[d] = std::min(low[d], least);
       high[d] = std::max(high[d], most);
-      widened += (widened.empty() ? "" : ", ") + std::string(1, "xyz"[d]);
+      widened += (widened.empty() ? "" : ", ") + named(s, d);
     }
   }
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -137,11 +161,11 @@ void choose_domain(set_in_making& s) {
     s.tell("box", box_text(low, high), origin::derived, "widened along " + widened + " to hold all particles");
   const bool by_habit = std::ranges::any_of(s.files, [](const one_file& f) { return f.content.periodic_by_habit; });
   if (s.told.periodic)
-    s.tell("periodic", periodic.text(), origin::given, "--periodic");
+    s.tell("periodic", of_files(s, periodic).text(), origin::given, "--periodic");
   else if (said && boxed && !by_habit)
-    s.tell("periodic", periodic.text(), origin::read, "the file");
+    s.tell("periodic", of_files(s, periodic).text(), origin::read, "the file");
   else
-    s.tell("periodic", periodic.text(), origin::assumed, "no file says it; --periodic does");
+    s.tell("periodic", of_files(s, periodic).text(), origin::assumed, "no file says it; --periodic does");
   if (s.made.wrapped > 0)
     s.tell("wrapped", std::to_string(s.made.wrapped), origin::derived,
            "particles outside of the periodic box, moved into it");

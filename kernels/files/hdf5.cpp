@@ -15,16 +15,16 @@
 #include <pairsum/files/hdf5_dialects.hpp>
 #include <pairsum/files/hdf5_file.hpp>
 #include <pairsum/files/in_child.hpp>
+#include <pairsum/files/shown.hpp>
 #include <pairsum/files/words.hpp>
 
 namespace pairsum::files {
 namespace {
 
-/// A column of a dataset, or a value for all rows where no dataset is named.
+/// A column of a dataset, and which axis it is of.
 struct source {
   std::string dataset;
-  std::size_t column = 0;
-  double value = 0;
+  std::size_t column = 0, axis = 0;
 };
 using sources = std::vector<source>;
 
@@ -64,34 +64,38 @@ class dialect_reader {
 
   /// The groups of a file that are meant.
   std::vector<particle_group> groups_of(const hdf5_file& file);
-  void header(std::vector<particle_group>& groups);
-  void columns(const std::vector<particle_group>& groups);
+  void header(const std::vector<particle_group>& groups);
+  /// The content of groups of one name: one, or one of each part of a snapshot.
+  file_content columns(std::span<const particle_group> groups) const;
   file_content content;
-  std::optional<std::vector<double>> attribute(const std::string& group, std::string_view alternatives) const;
+  std::optional<std::vector<double>> attribute(const std::string& group, std::string_view alternatives) const {
+    return attribute(first_, group, alternatives);
+  }
 
  private:
+  static std::optional<std::vector<double>> attribute(const hdf5_file& file, const std::string& group,
+                                                      std::string_view alternatives);
   sources datasets(const hdf5_file& file, const std::string& group, std::string_view alternatives) const;
   sources told_or(const particle_group& g, std::initializer_list<const char*> quantities,
                   std::string_view alternatives) const;
   void locate(particle_group& g) const;
-  bool told_boundary(const particle_group& g) const;
-  void box(const std::string& group, std::size_t axes_of_file);
-  void quantity(const std::vector<particle_group>& groups, sources particle_group::*which, const char* what,
-                std::span<std::vector<double>* const> to);
+  void box(const std::string& group);
+  static void quantity(std::span<const particle_group> groups, sources particle_group::*which, const char* what,
+                       std::span<std::vector<double>* const> to);
 
   const hdf5_file& first_;
   const hdf5_dialect& names_;
   const hints& told_;
 };
 
-std::optional<std::vector<double>> dialect_reader::attribute(const std::string& group,
-                                                             std::string_view alternatives) const {
+std::optional<std::vector<double>> dialect_reader::attribute(const hdf5_file& file, const std::string& group,
+                                                             std::string_view alternatives) {
   for (const std::string_view one : split(alternatives, '|')) {
     const std::size_t at = one.find('@');
     const std::string object = at == 0 ? group : std::string(one.substr(0, at)), name(one.substr(at + 1));
-    if (!object.empty() && !first_.has(object)) continue;
-    if (auto numbers = first_.numbers(object, name)) return numbers;
-    if (const auto text = first_.text(object, name))
+    if (!object.empty() && !file.has(object)) continue;
+    if (auto numbers = file.numbers(object, name)) return numbers;
+    if (const auto text = file.text(object, name))
       if (const auto number = number_in(*text)) return std::vector<double>{*number};
   }
   return {};
@@ -101,11 +105,11 @@ sources dialect_reader::datasets(const hdf5_file& file, const std::string& group
   for (const std::string_view one : split(alternatives, '|')) {
     sources found;
     const auto names = split(one, ',');
-    for (const std::string_view name : names) {
-      const std::string dataset = spelt(file, group, name);
-      if (dataset.empty()) break;
+    for (std::size_t axis = 0; axis < names.size(); ++axis) {
+      const std::string dataset = spelt(file, group, names[axis]);
+      if (dataset.empty()) continue;
       const std::size_t columns = names.size() > 1 ? 1 : file.shape_of(dataset).columns;
-      for (std::size_t c = 0; c < columns; ++c) found.push_back({dataset, c, 0});
+      for (std::size_t c = 0; c < columns; ++c) found.push_back({dataset, c, names.size() > 1 ? axis : c});
     }
     if (!found.empty()) return found;
   }
@@ -116,9 +120,10 @@ sources dialect_reader::datasets(const hdf5_file& file, const std::string& group
 sources dialect_reader::told_or(const particle_group& g, std::initializer_list<const char*> quantities,
                                 std::string_view alternatives) const {
   sources found;
-  for (const char* const quantity : quantities) {
+  for (std::size_t axis = 0; axis < quantities.size(); ++axis) {
+    const std::string quantity = quantities.begin()[axis];
     const auto told = told_.columns.find(quantity);
-    if (told == told_.columns.end()) break;
+    if (told == told_.columns.end()) continue;
     const std::size_t colon = told->second.rfind(':');
     const std::string dataset = spelt(*g.file, g.path, told->second.substr(0, colon));
     const auto column = colon == told->second.npos ? 0 : number_in(told->second.substr(colon + 1)).value_or(-1);
@@ -128,7 +133,7 @@ sources dialect_reader::told_or(const particle_group& g, std::initializer_list<c
     const std::size_t columns = g.file->shape_of(dataset).columns;
     if (!(column >= 0 && column < static_cast<double>(columns)))
       throw error(g.file->path() + ": " + dataset + " has " + std::to_string(columns) + " columns, no " + told->second);
-    found.push_back({dataset, static_cast<std::size_t>(column), 0});
+    found.push_back({dataset, static_cast<std::size_t>(column), axis});
   }
   return found.empty() ? datasets(*g.file, g.path, alternatives) : found;
 }
@@ -142,8 +147,10 @@ void dialect_reader::locate(particle_group& g) const {
   g.m = told_or(g, {"m"}, names_.m);
   g.h = told_or(g, {"h"}, names_.h);
   g.kind = told_or(g, {"kind"}, names_.kind);
-  if (const auto rule = boundary_rule::of(told_.boundary_kind); rule && !rule->names_groups())
-    g.other = datasets(*g.file, g.path, rule->column);
+  if (const auto rule = boundary_rule::of(told_.boundary_kind)) {
+    g.kind.clear();
+    if (!rule->names_groups() && !rule->none()) g.other = datasets(*g.file, g.path, rule->column);
+  }
   for (const sources* const all : {&g.x, &g.v, &g.rho, &g.m, &g.h, &g.kind, &g.other})
     for (const source& s : *all) {
       const std::size_t rows = g.file->shape_of(s.dataset).rows;
@@ -151,16 +158,9 @@ void dialect_reader::locate(particle_group& g) const {
         throw error(g.file->path() + ": " + s.dataset + " has " + std::to_string(rows) + " rows, but " +
                     g.x[0].dataset + " has " + std::to_string(g.rows));
     }
-  for (const sources* const one : {&g.rho, &g.m, &g.h, &g.kind})
+  for (const sources* const one : {&g.rho, &g.m, &g.h, &g.kind, &g.other})
     if (one->size() > 1)
       throw error(g.file->path() + ": " + one->front().dataset + " has several columns, should have one");
-}
-
-bool dialect_reader::told_boundary(const particle_group& g) const {
-  const auto rule = boundary_rule::of(told_.boundary_kind);
-  return rule && rule->names_groups() && std::ranges::any_of(rule->values, [&](const std::string& v) {
-           return same_word(v, g.label) || v == std::to_string(g.number());
-         });
 }
 
 /// The groups of a file that match a pattern with at most one *.
@@ -200,19 +200,28 @@ std::vector<particle_group> dialect_reader::groups_of(const hdf5_file& file) {
     if (all.empty()) throw error(file.path() + " has no step " + std::to_string(*told_.step));
     all.erase(all.begin(), all.end() - 1);
   }
-  for (particle_group& g : all) locate(g);
+  for (particle_group& g : all) {
+    locate(g);
+    if (std::ranges::find(content.groups, g.label) == content.groups.end()) content.groups.push_back(g.label);
+  }
   std::erase_if(all, [](const particle_group& g) { return g.rows == 0; });
-  const auto counts = attribute("", names_.counts);
+  const auto rule = boundary_rule::of(told_.boundary_kind);
+  const auto counts = attribute(file, "", names_.counts);
   for (particle_group& g : all) {
     const auto k = static_cast<std::size_t>(g.number());
-    if (&file == &first_ && counts && g.number() >= 0 && k < counts->size() &&
-        (*counts)[k] != static_cast<double>(g.rows))
+    if (counts && g.number() >= 0 && k < counts->size() && (*counts)[k] != static_cast<double>(g.rows))
       throw error(file.path() + ": " + g.x[0].dataset + " has " + std::to_string(g.rows) +
                   " rows, but the header counts " + number_text((*counts)[k]));
-    g.boundary = told_boundary(g) ||
-                 (names_.meant == groups_meant::all && told_.boundary_kind.empty() && names_boundary(g.label));
+    g.boundary = rule && rule->names_groups() && rule->takes(g.label);
+    if (names_.meant != groups_meant::all || rule || !g.kind.empty()) continue;
+    const kind_word kind = kind_named(g.label);
+    if (kind == kind_word::body)
+      throw error(file.path() + ": the group " + g.label +
+                  " is a body that moves, by its name, which pairsum does not sum; --boundary-kind name=" + g.label +
+                  " takes it for boundary, none all particles for fluid");
+    g.boundary = kind == kind_word::boundary;
   }
-  if (names_.meant != groups_meant::first) return all;
+  if (names_.meant != groups_meant::first || (rule && rule->none())) return all;
   const bool fluid = std::ranges::any_of(all, [](const particle_group& g) { return g.number() == 0; });
   const auto others = std::ranges::count_if(all, [](const particle_group& g) { return !g.boundary; });
   std::string left_out;
@@ -232,7 +241,7 @@ std::vector<particle_group> dialect_reader::groups_of(const hdf5_file& file) {
   return meant;
 }
 
-void dialect_reader::box(const std::string& group, std::size_t axes_of_file) {
+void dialect_reader::box(const std::string& group) {
   auto &low = content.box_low, &high = content.box_high;
   const auto lows = attribute(group, names_.low), highs = attribute(group, names_.high),
              limits = attribute(group, names_.limits), edges = attribute(group, names_.edges);
@@ -245,7 +254,7 @@ void dialect_reader::box(const std::string& group, std::size_t axes_of_file) {
       high.push_back((*limits)[2 * d + 1]);
     }
   } else if (edges && std::ranges::any_of(*edges, [](double e) { return e != 0; })) {
-    high = edges->size() == 1 ? std::vector<double>(axes_of_file, edges->front()) : *edges;
+    high = edges->size() == 1 ? std::vector<double>(3, edges->front()) : *edges;
     low.assign(high.size(), 0.0);
   }
   if (low.size() != high.size())
@@ -260,7 +269,7 @@ void dialect_reader::box(const std::string& group, std::size_t axes_of_file) {
   content.periodic_by_habit = !periodic;
 }
 
-void dialect_reader::header(std::vector<particle_group>& groups) {
+void dialect_reader::header(const std::vector<particle_group>& groups) {
   const std::string& group = groups.front().path;
   const auto one = [&](std::string_view alternatives) -> std::optional<double> {
     const auto found = attribute(group, alternatives);
@@ -277,27 +286,22 @@ void dialect_reader::header(std::vector<particle_group>& groups) {
       throw error(first_.path() + ": Dimension is " + number_text(*dim) + ", should be 1, 2 or 3");
     content.dim = static_cast<int>(*dim);
   }
-  box(group, axes_of_file);
-  const auto masses = attribute(group, names_.masses);
-  const bool column = std::ranges::any_of(groups, [](const particle_group& g) { return !g.m.empty(); });
-  for (particle_group& g : groups) {
-    const auto k = static_cast<std::size_t>(g.number());
-    if (!masses || !g.m.empty() || k >= masses->size() || !((*masses)[k] > 0)) continue;
-    if (column)
-      g.m = {{"", 0, (*masses)[k]}};
-    else
-      (g.boundary ? content.m_of_boundary : content.m_of_all) = (*masses)[k];
-  }
+  box(group);
   const auto support = [&](double s, origin how, const std::string& from) {
     if (!(s > 0)) throw error(first_.path() + ": " + from + " is " + number_text(s) + ", should be positive");
     content.support = s;
     if (!told_.H && !told_.support) content.facts.push_back({"support", number_text(s) + " h", how, from});
   };
-  if (const auto H = one(names_.H)) {
-    content.h_of_all = H;
-    return support(1, origin::read, "SupportRadius of the header is H itself");
-  }
-  if (groups.front().h.empty()) return;
+  content.H = one(names_.H);
+  if (content.H) return;
+  if (std::ranges::all_of(groups, [](const particle_group& g) { return g.h.empty(); })) return;
+  const std::size_t at = names_.length_is.find('@');
+  const std::string header(names_.length_is.substr(0, at)),
+      word(at == names_.length_is.npos ? "" : names_.length_is.substr(at + 1));
+  const auto is = first_.has(header) ? first_.text(header, word) : std::nullopt;
+  if (is && *is != "h" && *is != "support")
+    throw error(first_.path() + ": " + word + " is " + shown(*is) + ", should be \"h\" or \"support\"");
+  if (is == "support") return support(1, origin::read, word + " of the header: h is the support radius");
   if (const auto gamma = one(names_.gamma)) return support(*gamma, origin::read, "Kernel gamma");
   for (const std::string_view f : split(names_.function, '|')) {
     const std::string object(f.substr(0, f.find('@'))), name(f.substr(f.find('@') + 1));
@@ -305,27 +309,24 @@ void dialect_reader::header(std::vector<particle_group>& groups) {
     const double gamma = function ? gamma_of(*function, content.dim.value_or(static_cast<int>(axes_of_file))) : 0;
     if (gamma > 0) return support(gamma, origin::derived, "the smoothing kernel, " + *function);
   }
+  if (is) return support(2, origin::assumed, word + " is h; --support says how much larger the support radius is");
   if (names_.support > 0)
     support(names_.support, origin::assumed, "as " + std::string(names_.name) + " writes it; --support says otherwise");
 }
 
-/// Reads a quantity of all groups, one after the other; none if one of them has it not.
-void dialect_reader::quantity(const std::vector<particle_group>& groups, sources particle_group::*which,
-                              const char* what, std::span<std::vector<double>* const> to) {
-  std::size_t rows = 0, columns = to.size(), most = 0;
+/// Reads a quantity of groups of one name, one after the other.
+void dialect_reader::quantity(std::span<const particle_group> groups, sources particle_group::*which, const char* what,
+                              std::span<std::vector<double>* const> to) {
+  const particle_group& first = groups.front();
+  const std::size_t columns = (first.*which).size();
+  std::size_t rows = 0, begin = 0;
   for (const particle_group& g : groups) {
     rows += g.rows;
-    columns = std::min(columns, (g.*which).size());
-    most = std::max(most, (g.*which).size());
+    if (!std::ranges::equal(g.*which, first.*which, {}, &source::axis, &source::axis))
+      throw error(g.file->path() + ": " + g.path + " has " + std::to_string((g.*which).size()) + " columns of " + what +
+                  ", but " + std::to_string(columns) + " in " + first.file->path());
   }
-  if (columns < most && columns == 0) {
-    content.facts.push_back({what, "not used", origin::assumed, "some groups of the file have none"});
-  } else if (columns < std::min(most, to.size())) {
-    throw error(first_.path() + ": some of its groups have " + std::to_string(columns) + " columns of " + what +
-                ", others " + std::to_string(most));
-  }
-  for (std::size_t k = 0; k < columns; ++k) resize_column(*to[k], rows);
-  std::size_t begin = 0;
+  for (const source& s : first.*which) resize_column(*to[s.axis], rows);
   for (const particle_group& g : groups) {
     const sources& all = g.*which;
     for (std::size_t k = 0; k < columns;) {
@@ -334,19 +335,17 @@ void dialect_reader::quantity(const std::vector<particle_group>& groups, sources
       const std::string& dataset = all[k].dataset;
       for (; k < columns && all[k].dataset == dataset; ++k) {
         of_dataset.push_back(all[k].column);
-        places.push_back(to[k]->data() + begin);
+        places.push_back(to[all[k].axis]->data() + begin);
       }
-      if (dataset.empty())
-        std::fill_n(places[0], g.rows, all[0].value);
-      else
-        g.file->read(dataset, of_dataset, places);
+      g.file->read(dataset, of_dataset, places);
     }
     begin += g.rows;
   }
 }
 
-void dialect_reader::columns(const std::vector<particle_group>& groups) {
-  file_content& c = content;
+file_content dialect_reader::columns(std::span<const particle_group> groups) const {
+  file_content c = content;
+  const particle_group& first = groups.front();
   const auto three = [](std::array<std::vector<double>, 3>& a) { return std::array{&a[0], &a[1], &a[2]}; };
   quantity(groups, &particle_group::x, "positions", three(c.x));
   quantity(groups, &particle_group::v, "velocities", three(c.v));
@@ -356,23 +355,27 @@ void dialect_reader::columns(const std::vector<particle_group>& groups) {
   one(&particle_group::rho, "density", c.rho);
   one(&particle_group::m, "mass", c.m);
   one(&particle_group::h, "h", c.h);
-  if (std::ranges::any_of(groups, [](const particle_group& g) { return !g.other.empty(); }))
+  if (!first.other.empty())
     one(&particle_group::other, "kind", c.others[boundary_rule::of(told_.boundary_kind)->column]);
+  if (const auto masses = attribute(first.path, names_.masses)) {
+    const auto k = static_cast<std::size_t>(first.number());
+    if (k < masses->size() && (*masses)[k] > 0) c.m_of_all = (*masses)[k];
+  }
   std::vector<double> kinds;
   one(&particle_group::kind, "kind", kinds);
-  c.kind.resize(c.x[0].size());
+  const bool by_rule = !told_.boundary_kind.empty();
+  const bool by_name = names_.meant == groups_meant::all,
+             by_type = names_.meant == groups_meant::first && first.number() == 0;
+  if (by_rule || by_name || by_type || !kinds.empty())
+    c.kind.assign(c.x[first.x.front().axis].size(), first.boundary ? particle_kind::boundary : particle_kind::fluid);
+  c.kinds_by_name = by_name && !by_rule && kinds.empty();
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (kinds[i] != 0 && kinds[i] != 1)
       throw error(first_.path() + ": the kind of particle " + std::to_string(i + 1) + " is " + number_text(kinds[i]) +
                   ", should be 0 (fluid) or 1 (boundary)");
     c.kind[i] = static_cast<particle_kind>(kinds[i]);
   }
-  auto at = c.kind.begin();
-  for (const particle_group& g : groups) {
-    const auto end = at + static_cast<std::ptrdiff_t>(g.rows);
-    if (kinds.empty()) std::fill(at, end, g.boundary ? particle_kind::boundary : particle_kind::fluid);
-    at = end;
-  }
+  return c;
 }
 
 /// The dialect of a file. Errors: none.
@@ -420,6 +423,7 @@ file_content read_here(const std::string& path, const hints& told) {
     for (const std::string& part : siblings(path, parts->front())) {
       files.push_back(std::make_unique<hdf5_file>(part));
       for (particle_group& g : reader.groups_of(*files.back())) groups.push_back(std::move(g));
+      reader.content.parts.push_back(part);
     }
     reader.content.facts.push_back({"files of the snapshot", number_text(parts->front()), origin::read, "the header"});
   } else {
@@ -427,8 +431,21 @@ file_content read_here(const std::string& path, const hints& told) {
   }
   if (groups.empty()) throw error(path + " has no particles");
   reader.header(groups);
-  reader.columns(groups);
-  return std::move(reader.content);
+  std::ranges::stable_sort(groups, {}, &particle_group::label);
+  std::vector<file_content> all;
+  for (auto begin = groups.begin(); begin != groups.end();) {
+    const auto end =
+        std::find_if(begin, groups.end(), [&](const particle_group& g) { return g.label != begin->label; });
+    all.push_back(reader.columns({begin, end}));
+    if (begin != groups.begin() || end != groups.end()) all.back().label = begin->label;
+    reader.content.facts.clear();
+    reader.content.parts.clear();
+    begin = end;
+  }
+  file_content first = std::move(all.front());
+  all.erase(all.begin());
+  first.more = std::move(all);
+  return first;
 }
 
 bool recognises(std::span<const std::byte> head, std::string_view) {

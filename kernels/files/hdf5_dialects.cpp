@@ -4,6 +4,9 @@
 #include <array>
 #include <cctype>
 #include <string>
+#include <vector>
+
+#include <pairsum/files/words.hpp>
 
 namespace pairsum::files {
 namespace {
@@ -17,7 +20,7 @@ constexpr hdf5_dialect gadget{
     .edges = "Header@BoxSize", .low = "Header@BoxLow", .high = "Header@BoxHigh",
     .axes = "Header@Periodic|RuntimePars@PeriodicBoundariesOn|Parameters@InitialConditions:periodic",
     .gamma = "HydroScheme@Kernel gamma|Parameters@Kernel gamma",
-    .function = "HydroScheme@Kernel function",
+    .length_is = "Header@SmoothingLengthIs", .function = "HydroScheme@Kernel function",
     .masses = "Header@MassTable", .counts = "Header@NumPart_ThisFile", .files = "Header@NumFilesPerSnapshot",
     .rho0 = "Header@Rho0", .B = "Header@B", .H = "Header@SupportRadius",
     .gravity = "Header@Gravity", .dx = "Header@Spacing",
@@ -69,8 +72,16 @@ constexpr std::array<kernel_gamma, 6> gammas{{{"cubic spline", {1.732051, 1.7780
                                               {"wendland c4", {1.936492, 2.171239, 2.207940}},
                                               {"wendland c6", {2.207940, 2.415230, 2.449490}}}};
 
-constexpr std::array<std::string_view, 10> boundary_words{"boundary",  "wall",  "solid", "obstacle", "tank",
-                                                          "container", "floor", "bed",   "gate",     "box"};
+/// Plurals but for their s. The first of these that a name has counts.
+struct kind_words {
+  kind_word kind;
+  std::array<std::string_view, 11> words;
+};
+constexpr std::array<kind_words, 3> kinds_by_name{
+    {{kind_word::fluid, {"fluid", "water", "liquid", "gas", "oil", "air"}},
+     {kind_word::boundary,
+      {"boundary", "boundarie", "wall", "solid", "obstacle", "tank", "container", "floor", "bed", "gate", "box"}},
+     {kind_word::body, {"body", "bodie", "rigid", "floating"}}}};
 
 std::string lower(std::string_view text) {
   std::string all(text);
@@ -89,9 +100,19 @@ double gamma_of(std::string_view function, int dim) {
   return 0;
 }
 
-bool names_boundary(std::string_view group) {
-  const std::string word = lower(group);
-  return std::ranges::any_of(boundary_words, [&](std::string_view w) { return word.find(w) != word.npos; });
+kind_word kind_named(std::string_view group) {
+  std::string text = lower(group);
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return !std::isalpha(c); }, ' ');
+  std::vector<std::string_view> words = split(text, ' ');
+  std::erase(words, "");
+  for (std::string_view& w : words)
+    if (w.size() > 3 && w.ends_with('s') && !w.ends_with("gas")) w.remove_suffix(1);
+  for (const kind_words& one : kinds_by_name)
+    if (std::ranges::any_of(words,
+                            [&](std::string_view w) { return std::ranges::find(one.words, w) != one.words.end(); }))
+      return one.kind;
+  return kind_word::none;
 }
 
 }  // namespace pairsum::files

@@ -27,9 +27,10 @@ struct hdf5_dialect {
   std::string_view edges = "";                ///< of a box at 0: one number for all axes, or one for each
   std::string_view limits = "";               ///< of a box: low and high of x, of y and of z
   std::string_view low = "", high = "";       ///< of a box, a number per axis
-  std::string_view axes = "";      ///< periodic or not: one number for all axes, or one for each; 1 is periodic
-  std::string_view gamma = "";     ///< support radius over smoothing length
-  std::string_view function = "";  ///< the smoothing kernel's name, which says gamma where no attribute does
+  std::string_view axes = "";       ///< periodic or not: one number for all axes, or one for each; 1 is periodic
+  std::string_view gamma = "";      ///< support radius over smoothing length
+  std::string_view length_is = "";  ///< a text: what h is, "h" or "support"
+  std::string_view function = "";   ///< the smoothing kernel's name, which says gamma where no attribute does
   std::string_view masses =
       "";  ///< an attribute: the mass of all particles of a group, by its number; 0 means a column
   std::string_view counts = "";  ///< an attribute: how many particles a group has, by its number
@@ -47,7 +48,11 @@ std::span<const hdf5_dialect> hdf5_dialects();
 /// Source: Dehnen and Aly 2012 (doi:10.1111/j.1365-2966.2012.21439.x), table 1.
 double gamma_of(std::string_view function, int dim);
 
-/// Is a group of PySPH boundary? Its name says so: "boundary", "wall", "obstacle", ...
-bool names_boundary(std::string_view group);
+/// What the name of a group of particles says of their kind.
+enum class kind_word { none, fluid, boundary, body };
+
+/// By the words of a name, between digits and signs; those for fluid come first: "fluid_box" is fluid, "wall_2"
+/// boundary, "rigid_body" a body that moves, "sandbox" none of them.
+kind_word kind_named(std::string_view group);
 
 }  // namespace pairsum::files

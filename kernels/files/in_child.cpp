@@ -66,9 +66,9 @@ class pipe_end {
     }
   }
   void pass(file_content& c) {
-    each(c.format, c.dialect, c.x, c.v, c.rho, c.m, c.h, c.kind, c.others, c.dim, c.dx, c.h_of_all, c.m_of_all,
-         c.m_of_boundary, c.rho0, c.B, c.gravity, c.support, c.time, c.box_low, c.box_high, c.periodic,
-         c.periodic_by_habit, c.facts);
+    each(c.format, c.dialect, c.label, c.x, c.v, c.rho, c.m, c.h, c.kind, c.others, c.dim, c.H, c.dx, c.h_of_all,
+         c.m_of_all, c.m_of_boundary, c.rho0, c.B, c.gravity, c.support, c.time, c.box_low, c.box_high, c.periodic,
+         c.periodic_by_habit, c.kinds_by_name, c.facts, c.more, c.groups, c.parts);
   }
 
  private:

@@ -35,20 +35,25 @@ struct hints {
   std::map<std::string, std::string> columns;  ///< quantity (x, y, z, vx, vy, vz, rho, m, h, kind) to a column's name
 };
 
-/// What one file says, as it stands there: no unit is changed and nothing is made up. A column is empty where the file
-/// has none, else it has a row per particle.
+/// What one file says, or one group of particles in it, as it stands there: no unit is changed and nothing is made up.
+/// A column is empty where there is none, else it has a row per particle.
 struct file_content {
   std::string format, dialect;              ///< "hdf5", "gadget"
-  std::array<std::vector<double>, 3> x, v;  ///< x[2] empty: 2D; v all empty: not in the file
+  std::string label;                        ///< of a group of a file with several: "PartType1"
+  std::array<std::vector<double>, 3> x, v;  ///< along the file's axes; empty: not in the file
   std::vector<double> rho, m, h;
   std::vector<particle_kind> kind;
   std::map<std::string, std::vector<double>> others;  ///< columns that hints name (boundary_kind)
   std::optional<int> dim;
-  std::optional<double> dx, h_of_all, m_of_all, m_of_boundary, rho0, B, gravity, support, time;  ///< of the header
+  std::optional<double> H, dx, h_of_all, m_of_all, m_of_boundary, rho0, B, gravity, support, time;  ///< of the header
   std::vector<double> box_low, box_high;  ///< m, an entry per axis; empty: not in the file
   std::optional<axes> periodic;
-  bool periodic_by_habit = false;  ///< no word of the file says so, but programs of its dialect do it
-  std::vector<fact> facts;         ///< what else a reader should be told
+  bool periodic_by_habit = false;   ///< no word of the file says so, but programs of its dialect do it
+  bool kinds_by_name = false;       ///< a guess by names of groups
+  std::vector<fact> facts;          ///< what else a reader should be told
+  std::vector<file_content> more;   ///< further groups of the file, each with columns of its own
+  std::vector<std::string> groups;  ///< all groups of particles, also those that are left out
+  std::vector<std::string> parts;   ///< all files of a snapshot of several, which were read with this one
 };
 
 }  // namespace pairsum::files

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <set>
 #include <utility>
 
 #include <pairsum/core/error.hpp>
@@ -29,9 +33,16 @@ std::optional<particle_kind> kind_of_path(std::string& path) {
   return {};
 }
 
-/// Reads a file and checks that its columns belong together.
-one_file read_one(const std::string& path, const hints& told) {
-  one_file f{path, read_file(path, told), 0};
+/// The same for all paths that lead to a file.
+std::string name_of(const std::string& path) {
+  std::error_code problem;
+  const std::filesystem::path name = std::filesystem::canonical(path, problem);
+  return problem ? path : name.string();
+}
+
+/// Checks that the columns of a file, or of a group in it, belong together.
+one_file checked(const std::string& path, std::optional<particle_kind> by_path, file_content content) {
+  one_file f{path, by_path, std::move(content), 0};
   file_content& c = f.content;
   std::vector<std::vector<double>*> columns{&c.x[0], &c.x[1], &c.x[2], &c.v[0], &c.v[1], &c.v[2], &c.rho, &c.m, &c.h};
   for (auto& [name, column] : c.others) columns.push_back(&column);
@@ -39,7 +50,7 @@ one_file read_one(const std::string& path, const hints& told) {
   if (f.rows == 0) throw error(path + " has no particles");
   for (const auto* const column : columns)
     if (!column->empty() && column->size() != f.rows)
-      throw error(path + ": a column has " + std::to_string(column->size()) + " rows, positions have " +
+      throw error(f.name() + ": a column has " + std::to_string(column->size()) + " rows, positions have " +
                   std::to_string(f.rows));
   return f;
 }
@@ -49,22 +60,40 @@ one_file read_one(const std::string& path, const hints& told) {
 read_set read_particles(const std::vector<std::string>& paths, const hints& told) {
   if (paths.empty()) throw error("no file of particles is named");
   set_in_making s{told};
-  std::vector<std::optional<particle_kind>> by_path;
   std::size_t total = 0;
+  std::set<std::string> given;
+  std::map<std::string, std::size_t> part_of;  // the parts of snapshots, and by which of the files they were read
   for (std::string path : paths) {
-    by_path.push_back(kind_of_path(path));
-    s.files.push_back(read_one(path, told));
-    const one_file& f = s.files.back();
-    total += f.rows;
-    s.tell("file", path, origin::read,
-           f.content.format + (f.content.dialect.empty() ? "" : ", " + f.content.dialect) + ", " +
-               std::to_string(f.rows) + " particles");
-    for (const fact& one : f.content.facts) s.made.facts.push_back(one);
+    const auto kind = kind_of_path(path);
+    const std::string name = name_of(path);
+    if (!given.insert(name).second) throw error(path + " is given twice; each file of a set is read once");
+    if (const auto whole = part_of.find(name); whole != part_of.end()) {
+      const std::string& other = s.files[whole->second].path;
+      if (s.files[whole->second].by_path != kind)
+        throw error(path + " and " + other + " are parts of one snapshot, and should both be fluid or both boundary");
+      s.tell("file", path, origin::read, "a part of the snapshot that " + other + " belongs to, read with it");
+      continue;
+    }
+    file_content content = read_file(path, told);
+    for (const std::string& part : content.parts) part_of[name_of(part)] = s.files.size();
+    std::vector<fact> facts = std::move(content.facts);
+    const std::string format = content.format + (content.dialect.empty() ? "" : ", " + content.dialect);
+    std::vector<file_content> more = std::move(content.more);
+    s.files.push_back(checked(path, kind, std::move(content)));
+    std::size_t rows = s.files.back().rows;
+    for (file_content& group : more) {
+      s.files.push_back(checked(path, kind, std::move(group)));
+      rows += s.files.back().rows;
+    }
+    ++s.paths;
+    total += rows;
+    s.tell("file", path, origin::read, format + ", " + std::to_string(rows) + " particles");
+    std::ranges::move(facts, std::back_inserter(s.made.facts));
   }
   if (total > most_particles)
     throw error(s.named() + " hold " + std::to_string(total) + " particles, more than the " +
                 std::to_string(most_particles) + " that pairsum counts");
-  choose_kinds(s, by_path);
+  choose_kinds(s);
   check_numbers(s);
   choose_axes(s);
   complete_columns(s);

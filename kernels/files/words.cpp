@@ -46,4 +46,9 @@ std::optional<boundary_rule> boundary_rule::of(const std::string& text) {
   return rule;
 }
 
+bool boundary_rule::takes(std::string_view group) const {
+  const std::string_view number = group.substr(group.find_last_not_of("0123456789") + 1);
+  return std::ranges::any_of(values, [&](const std::string& v) { return same_word(v, group) || v == number; });
+}
+
 }  // namespace pairsum::files

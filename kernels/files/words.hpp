@@ -25,6 +25,8 @@ struct boundary_rule {
   static std::optional<boundary_rule> of(const std::string& text);
   bool none() const { return column.empty(); }
   /// Is it about groups of a file, not about a column?
+  /// Is a group's name, or the number at its end, one of the values?
+  bool takes(std::string_view group) const;
   bool names_groups() const { return same_word(column, "name") || same_word(column, "PartType"); }
 };
 

@@ -86,11 +86,11 @@ TEST(csv, two_axes_are_2d) {
   const file_content flat = read_bytes("xz.csv", "x,z,vx,vy,vz\n1,2,3,4,5\n");
   EXPECT_EQ(flat.dim, 2);
   EXPECT_EQ(flat.x[0], numbers{1});
-  EXPECT_EQ(flat.x[1], numbers{2});
-  EXPECT_TRUE(flat.x[2].empty());
+  EXPECT_EQ(flat.x[2], numbers{2});
+  EXPECT_TRUE(flat.x[1].empty());
   EXPECT_EQ(flat.v[0], numbers{3});
-  EXPECT_EQ(flat.v[1], numbers{5});
-  EXPECT_TRUE(flat.v[2].empty());
+  EXPECT_EQ(flat.v[2], numbers{5});
+  EXPECT_TRUE(flat.v[1].empty());
   EXPECT_EQ(read_bytes("xy.csv", "x,y,u,v,w\n1,2,3,4,5\n").v[1], numbers{4});
   EXPECT_EQ(read_bytes("xyz.csv", "x,y,z,w,v,u\n1,2,3,4,5,6\n").v,
             (std::array<std::vector<double>, 3>{numbers{6}, numbers{5}, numbers{4}}));

@@ -43,6 +43,9 @@ file_content in_two_s(const std::function<file_content()>& read) { return in_chi
 
 TEST(in_child, hands_over_every_member) {
   file_content told;
+  told.more.resize(2);
+  told.more[1].label = "PartType1";
+  told.more[1].rho = {10};
   told.format = "f";
   told.dialect = "d";
   told.x = {{{1, 2}, {3, 4}, {}}};
@@ -53,6 +56,7 @@ TEST(in_child, hands_over_every_member) {
   told.kind = {particle_kind::boundary, particle_kind::fluid};
   told.others = {{"Type", {1, 3}}, {"Mk", {}}};
   told.dim = 2;
+  told.H = 0.15;
   told.dx = 0.1;
   told.h_of_all = 0.2;
   told.m_of_all = 0.3;
@@ -66,7 +70,10 @@ TEST(in_child, hands_over_every_member) {
   told.box_high = {3, 4};
   told.periodic = axes{{true, false, true}};
   told.periodic_by_habit = true;
+  told.kinds_by_name = true;
   told.facts = {{"what", "value", origin::derived, "from"}};
+  told.parts = {"a.0", "a.1"};
+  told.groups = {"fluid", "wall"};
   const file_content got = in_two_s([&] { return told; });
   EXPECT_EQ(got.format + got.dialect, "fd");
   EXPECT_EQ(got.x, told.x);
@@ -77,7 +84,7 @@ TEST(in_child, hands_over_every_member) {
   EXPECT_EQ(got.kind, told.kind);
   EXPECT_EQ(got.others, told.others);
   for (const auto member :
-       {&file_content::dx, &file_content::h_of_all, &file_content::m_of_all, &file_content::m_of_boundary,
+       {&file_content::H, &file_content::dx, &file_content::h_of_all, &file_content::m_of_all, &file_content::m_of_boundary,
         &file_content::rho0, &file_content::B, &file_content::gravity, &file_content::support, &file_content::time})
     EXPECT_EQ(got.*member, told.*member);
   EXPECT_EQ(got.dim, told.dim);
@@ -85,6 +92,12 @@ TEST(in_child, hands_over_every_member) {
   EXPECT_EQ(got.box_high, told.box_high);
   EXPECT_EQ(got.periodic, told.periodic);
   EXPECT_TRUE(got.periodic_by_habit);
+  EXPECT_TRUE(got.kinds_by_name);
+  EXPECT_EQ(got.parts, told.parts);
+  EXPECT_EQ(got.groups, told.groups);
+  ASSERT_EQ(got.more.size(), 2u);
+  EXPECT_EQ(got.more[1].label, "PartType1");
+  EXPECT_EQ(got.more[1].rho, std::vector<double>{10});
   ASSERT_EQ(got.facts.size(), 1u);
   EXPECT_EQ(got.facts[0].what + got.facts[0].value + got.facts[0].from, "whatvaluefrom");
   EXPECT_EQ(got.facts[0].how, origin::derived);

@@ -62,6 +62,15 @@ def test_a_series_names_data_that_are_there(written):
             assert (data.dtype.kind, data.dtype.itemsize) == (kinds[item.get("NumberType")], int(item.get("Precision")))
 
 
+def test_the_headers_H_is_no_h(written):
+    path, p = written
+    H = read(path).set["H"]
+    assert read(path).fact["H"]["how"] == "read" and H == p.h.max()
+    assert read(path, support=3).set["H"] == H
+    assert read(path, h=0.125).set["H"] == 0.25 and "assumed" in read(path, h=0.125).fact["H"]["from"]
+    assert read(path, h=0.125, support=3).set["H"] == 0.375
+
+
 def test_read_again_it_is_the_same(written, tmp_path):
     path, _ = written
     first = read(path, out=tmp_path / "again.hdf")
