@@ -285,6 +285,7 @@ void complete_columns(set_in_making& s) {
     const bool given = told.mass.has_value(), read = !given && f.content.m_of_all.has_value();
     const double fluid = positive("the mass", given ? *told.mass : read ? *f.content.m_of_all : eos.rho0 * nearest());
     const double boundary = !given && header_boundary ? positive("the mass of boundary", *header_boundary) : fluid;
+    const std::string of_walls = f.content.m.empty() ? "" : ", of walls that have none";
     f.content.m.resize(f.rows, 0.0);
     for (std::size_t i = 0; i < f.rows; ++i)
       if (f.content.m[i] == 0) f.content.m[i] = f.content.kind[i] == particle_kind::fluid ? fluid : boundary;
@@ -292,9 +293,10 @@ void complete_columns(set_in_making& s) {
            given  ? origin::given
            : read ? origin::read
                   : origin::derived,
-           given  ? "--mass"
-           : read ? "the header"
-                  : "rho0 dx^" + std::to_string(s.dim()));
+           (given  ? "--mass"
+            : read ? "the header"
+                   : "rho0 dx^" + std::to_string(s.dim())) +
+               of_walls);
   }
   for (one_file& f : s.files) {
     std::string none;

@@ -83,9 +83,9 @@ TEST(in_child, hands_over_every_member) {
   EXPECT_TRUE(got.h[0] == 9 && std::isnan(got.h[1]));
   EXPECT_EQ(got.kind, told.kind);
   EXPECT_EQ(got.others, told.others);
-  for (const auto member :
-       {&file_content::H, &file_content::dx, &file_content::h_of_all, &file_content::m_of_all, &file_content::m_of_boundary,
-        &file_content::rho0, &file_content::B, &file_content::gravity, &file_content::support, &file_content::time})
+  for (const auto member : {&file_content::H, &file_content::dx, &file_content::h_of_all, &file_content::m_of_all,
+                            &file_content::m_of_boundary, &file_content::rho0, &file_content::B, &file_content::gravity,
+                            &file_content::support, &file_content::time})
     EXPECT_EQ(got.*member, told.*member);
   EXPECT_EQ(got.dim, told.dim);
   EXPECT_EQ(got.box_low, told.box_low);
