@@ -1,6 +1,7 @@
 // The support radius of particles of files.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <pairsum/core/error.hpp>
@@ -15,13 +16,13 @@ constexpr double usual_support = 2;  ///< H / h where nothing says it
 
 /// What files say: a support radius for each particle, or one of a header, and h times which factors it is.
 struct radii {
-  std::vector<double> H, h;
+  std::vector<double> H;
   std::set<double> factors;
-  bool of_columns = false;
+  double least_h = std::numeric_limits<double>::infinity(), most_h = 0;  ///< of columns
 
-  void add(double factor, double h_of_one) {
-    H.push_back(factor * h_of_one);
-    h.push_back(h_of_one);
+  bool of_columns() const { return most_h > 0; }
+  void add(double factor, double h) {
+    H.push_back(factor * h);
     factors.insert(factor);
   }
 };
@@ -42,13 +43,17 @@ void add_column(const set_in_making& s, const one_file& f, radii& all) {
     throw error(f.name() +
                 ": the smoothing kernel is unknown, so h does not say the support radius; --support does, as H / h, "
                 "or --H");
-  all.of_columns = true;
-  for (std::size_t i = 0; i < f.rows; ++i)
-    if (f.content.kind[i] == particle_kind::fluid) all.add(*factor, f.content.h[i]);
+  all.factors.insert(*factor);
+  for (std::size_t i = 0; i < f.rows; ++i) {
+    if (f.content.kind[i] != particle_kind::fluid) continue;
+    const double h = f.content.h[i];
+    all.H.push_back(*factor * h);
+    all.least_h = std::min(all.least_h, h);
+    all.most_h = std::max(all.most_h, h);
+  }
 }
 
-std::string spread(const std::vector<double>& values) {
-  const auto [low, high] = std::ranges::minmax(values);
+std::string spread(double low, double high) {
   return number_text(low) + " to " + number_text(high) + ", a factor of " +
          number_text(std::round(high / low * 1000) / 1000);
 }
@@ -89,19 +94,19 @@ void choose_H(set_in_making& s) {
                 number_text(s.made.dx) + " m");
   const auto [low, high] = std::ranges::minmax(all.H);
   if (high > widest * low)
-    throw error(s.named() + ": the support radius goes from " + spread(all.H) +
+    throw error(s.named() + ": the support radius goes from " + spread(low, high) +
                 ", and pairsum has one for all particles, so " + number_text(widest) +
                 " is the most; --H takes a length all the same");
   const double q = told.h_quantile.value_or(1);
   if (!(q > 0 && q <= 1)) throw error("--h-quantile is " + number_text(q) + ", should be above 0 and at most 1");
-  if (all.of_columns) s.tell("h", spread(all.h), origin::read, "the column h of the fluid");
+  if (all.of_columns()) s.tell("h", spread(all.least_h, all.most_h), origin::read, "the column h of the fluid");
   const double factor = *all.factors.begin();
   const std::string times = all.factors.size() > 1 ? "h times what each file says" : number_text(factor) + " h";
   const std::string which = q == 1 ? ", of the largest" : ", of the quantile " + number_text(q);
   const auto at = all.H.begin() + static_cast<std::ptrdiff_t>(std::ceil(q * static_cast<double>(all.H.size())) - 1);
   std::ranges::nth_element(all.H, at);
-  if (!all.of_columns && all.factors == std::set{1.0}) return take(*at, origin::read, "the header");
-  take(*at, origin::derived, times + (all.of_columns || all.factors.size() > 1 ? which : " of the header"));
+  if (!all.of_columns() && all.factors == std::set{1.0}) return take(*at, origin::read, "the header");
+  take(*at, origin::derived, times + (all.of_columns() || all.factors.size() > 1 ? which : " of the header"));
 }
 
 }  // namespace pairsum::files
