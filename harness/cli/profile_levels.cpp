@@ -42,7 +42,8 @@ run_request levels_of(const std::map<std::string, std::string>& options, const s
     r = p.levels;
   }
   for (const auto& [key, text] : options)
-    if (!text.empty() && (profile.empty() || given.at(option_of(key).substr(2)) || !profile_says(key)))
+    if (const bool told = given.contains(option_of(key).substr(2)) && given.at(option_of(key).substr(2));
+        told || (!text.empty() && (profile.empty() || !profile_says(key))))
       read_level(r, key, text, usable_cores(), option_of(key));
   if (r.particles.empty()) return r;
   // The hash of a profile is of what its own words read.

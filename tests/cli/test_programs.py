@@ -76,7 +76,7 @@ def test_what_is_listed_is_what_the_folders_hold(listed):
     assert len(names) == len(set(names)) and set(names) == in_tree
     known = set(listed["smoothings"]) | {m["word"] for m in listed["unavailable"] if m["kind"] == "smoothing kernel"}
     assert known == {p.stem for p in (SOURCE / "kernels/smoothing").glob("*.hpp")}
-    assert set(listed["states"]) == {"rest", "perturbed"}
+    assert set(listed["states"]) == {"rest", "perturbed", "evolved:T"}
 
 
 def test_rows_of_all_backends_obey_the_schema(pairsum, backends, tmp_path):
