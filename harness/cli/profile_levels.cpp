@@ -18,19 +18,19 @@ given_options given_of(const CLI::App& command) {
   return given;
 }
 
-std::vector<CLI::Option*> add_particle_hints(CLI::App& command, std::map<std::string, std::string>& levels) {
-  std::vector<CLI::Option*> added;
+void add_particle_hints(CLI::App& command, std::map<std::string, std::string>& levels) {
   for (const particle_hint& h : particle_hints())
     if (h.word != "file_dim")  // which --dim says
-      added.push_back(command.add_option(option_of(h.word), levels[std::string(h.word)], std::string(h.what)));
-  return added;
+      command.add_option(option_of(h.word), levels[std::string(h.word)], std::string(h.what));
 }
 
-std::vector<CLI::Option*> add_particle_options(CLI::App& command, std::map<std::string, std::string>& levels) {
-  std::vector<CLI::Option*> added{command.add_option("--particles", levels["particles"],
-                                                     "files of particles in place of a case (pairsum info FILE)")};
-  for (CLI::Option* const hint : add_particle_hints(command, levels)) added.push_back(hint);
-  return added;
+CLI::Option* add_particle_options(CLI::App& command, std::map<std::string, std::string>& levels) {
+  CLI::Option* const files = command.add_option(
+      "--particles", levels["particles"], "files of particles in place of a case; what they lack: pairsum info --help");
+  add_particle_hints(command, levels);
+  for (const particle_hint& h : particle_hints())
+    if (h.word != "file_dim") command.get_option(option_of(h.word))->group("");  // help stays on a screen
+  return files;
 }
 
 run_request levels_of(const std::map<std::string, std::string>& options, const std::string& profile,

@@ -17,12 +17,10 @@ using given_options = std::map<std::string, bool>;
 given_options given_of(const CLI::App& command);
 
 /// Adds an option for each of particle_hints(); their texts go to `levels`, by level.
-/// @return them
-std::vector<CLI::Option*> add_particle_hints(CLI::App& command, std::map<std::string, std::string>& levels);
+void add_particle_hints(CLI::App& command, std::map<std::string, std::string>& levels);
 
-/// Adds --particles and an option for each of particle_hints(); their texts go to `levels`, by level.
-/// @return them
-std::vector<CLI::Option*> add_particle_options(CLI::App& command, std::map<std::string, std::string>& levels);
+/// Adds --particles, which is returned, and the same options, which help does not show.
+CLI::Option* add_particle_options(CLI::App& command, std::map<std::string, std::string>& levels);
 
 /// The levels that options name; where a profile is named, its levels instead of those that were not given.
 /// @param profile a file of pairsum tune; empty: none

@@ -254,8 +254,7 @@ void add_run_command(CLI::App& app, action& chosen) {
   flag("--dry-run", o->dry_run, "print the design and about how long it takes; measure nothing", design);
   flag("--show-plan", o->show_plan, "print the plan as JSON; measure nothing", design);
   add_levels(*command, *o);
-  for (CLI::Option* const option : add_particle_options(*command, o->levels))
-    described(option, "Particles of your own (docs/own-particles.md)");
+  described(add_particle_options(*command, o->levels), "The case, without a plan");
   described(command->add_option("--rounds", o->rounds, "fresh processes that measure all points; intervals need 6 [6]"),
             round_group);
   described(command->add_option("--half-width", o->half_width,
