@@ -69,8 +69,8 @@ M_COMPARISON = Drawing(
 
 
 def _size_scaling(report: Report) -> list[Panel]:
-    apart = ["dx", "H", "n_fluid", "n_boundary", "dt"]
-    points = report.points.dropna(subset=["sum_s"]).assign(particles=lambda p: p["n_fluid"] + p["n_boundary"])
+    apart = ["dx", "H", "n_fluid", "n_boundary", "dt", "particles"]
+    points = report.points.dropna(subset=["sum_s"]).assign(size=lambda p: p["n_fluid"] + p["n_boundary"])
     same = ["study", "build", *(name for name in COMMON if name not in apart)]
     panels = []
     for _, own in points.groupby(same, sort=False):
@@ -83,12 +83,12 @@ def _size_scaling(report: Report) -> list[Panel]:
     def paint(axes: Axes, some: pd.DataFrame, column: str, label: str) -> None:
         labels = []
         for backend, line in some.groupby("backend", sort=False):
-            _line(axes, line["particles"], line[column], backend)
+            _line(axes, line["size"], line[column], backend)
             if column == "sum_s":
-                intervals(axes, line["particles"], line[column], line["sum_s_low"], line["sum_s_high"],
+                intervals(axes, line["size"], line[column], line["sum_s_low"], line["sum_s_high"],
                           style.colour(backend))
-            labels.append((line["particles"].iloc[-1], line[column].iloc[-1], backend, style.colour(backend)))
-        log(axes, "x", some["particles"], counted=True)
+            labels.append((line["size"].iloc[-1], line[column].iloc[-1], backend, style.colour(backend)))
+        log(axes, "x", some["size"], counted=True)
         log(axes, "y", some[column])
         axes.set(xlabel="particles (fluid + boundary)", ylabel=label)
         ends(axes, labels)
@@ -101,8 +101,8 @@ def fastest_of_each_size(points: pd.DataFrame):
     for title, _ in fastest(points, "sum_s"):
         most = points["threads"] == points.groupby("backend")["threads"].transform("max")
         some = points[points["threads"] == 1] if title == "1 thread" else points[most]
-        some = some.sort_values("sum_s").drop_duplicates(["backend", "particles"]).sort_values(["backend", "particles"])
-        some = some[some.groupby("backend")["particles"].transform("nunique") >= LINE]
+        some = some.sort_values("sum_s").drop_duplicates(["backend", "size"]).sort_values(["backend", "size"])
+        some = some[some.groupby("backend")["size"].transform("nunique") >= LINE]
         if len(some):
             yield title, some
 
