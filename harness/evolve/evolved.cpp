@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <optional>
 
 #include <pairsum/core/error.hpp>
@@ -34,9 +33,7 @@ moment step_to(double time, const initial_condition& start, double dx, const std
   s.grid = "compact_grid";
   s.isa = "scalar";
   const worker_team workers(runtime::omp, untimed_threads(usable_cores()));
-  moment from{start.particles, std::vector<std::uint32_t>(start.particles.size()), 0, 0, 0, 0};
-  std::iota(from.ids.begin(), from.ids.end(), 0u);
-  simulation run(simulate_registry(dx).make_summation(s), start, std::move(from), {}, workers.get());
+  simulation run(simulate_registry(dx).make_summation(s), start, start_of(start.particles), {}, workers.get());
   progress shown(time);
   while (run.t() < time) {
     run.step(time);

@@ -23,9 +23,8 @@ struct particles_of_request {
 /// @return what was read, given, derived and assumed, as a table; empty without files
 std::string take_particles(run_request& r);
 
-/// The particles of a request in one of its states: of its case as made, stepped to a time (evolved:T), or
-/// those of its files. Throws
-/// pairsum::error.
+/// The particles of a request in one of its states: of its case as made, stepped to a time (evolved:T), or those of
+/// its files. Throws pairsum::error.
 particles_of_request initial_of(const run_request& r, double dx, std::string_view state);
 
 }  // namespace pairsum::harness

@@ -1,5 +1,7 @@
 #include "harness/evolve/moment_file.hpp"
 
+#include <algorithm>
+
 #include <pairsum/core/error.hpp>
 #if PAIRSUM_HAS_FILES
 #include <pairsum/files/read_particles.hpp>
@@ -14,10 +16,7 @@ std::string why_no_moment_files() { return ""; }
 namespace {
 
 files::origin origin_of(const std::string& word) {
-  return word == "read"      ? files::origin::read
-         : word == "given"   ? files::origin::given
-         : word == "derived" ? files::origin::derived
-                             : files::origin::assumed;
+  return static_cast<files::origin>(std::ranges::find(files::origin_words, word) - files::origin_words.begin());
 }
 
 }  // namespace

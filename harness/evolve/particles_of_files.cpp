@@ -67,25 +67,11 @@ files::hints hints_of(const run_request& r) {
   return told;
 }
 
-const char* word_of(files::origin how) {
-  switch (how) {
-    case files::origin::read:
-      return "read";
-    case files::origin::given:
-      return "given";
-    case files::origin::derived:
-      return "derived";
-    case files::origin::assumed:
-      break;
-  }
-  return "assumed";
-}
-
 particles_of_request read(const run_request& r) {
   files::read_set set = files::read_particles(r.particles, hints_of(r));
   particles_of_request made{std::move(set.initial), set.dx, set.hash, r.particles, {}};
   for (const files::fact& f : set.facts)
-    made.facts.push_back({one_line(f.what), one_line(f.value), word_of(f.how), one_line(f.from)});
+    made.facts.push_back({one_line(f.what), one_line(f.value), std::string(files::word_of(f.how)), one_line(f.from)});
   if (r.H != 0) made.facts.push_back({"--H", number_text(r.H), "given", ""});
   for (const auto& [word, text] : r.hints)
     made.facts.push_back({word == "file_dim" ? "--dim" : option_of(word), text, "given", ""});

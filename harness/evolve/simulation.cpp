@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <pairsum/core/error.hpp>
@@ -30,6 +31,12 @@ void keep_rows(particle_table& p, std::vector<std::uint32_t>& ids) {
 }
 
 }  // namespace
+
+moment start_of(const particle_table& p) {
+  moment m{p, std::vector<std::uint32_t>(p.size()), 0, 0, 0, 0};
+  std::iota(m.ids.begin(), m.ids.end(), 0u);
+  return m;
+}
 
 simulation::simulation(std::unique_ptr<summation> sum, const initial_condition& domain, moment start,
                        const step_rules& rules, const team& t)

@@ -21,6 +21,9 @@ struct moment {
   std::uint64_t lost = 0;          ///< particles that have left Omega
 };
 
+/// Particles before the first step, with their rows as ids.
+moment start_of(const particle_table& p);
+
 /// How a simulation steps.
 struct step_rules {
   std::string integrator = "predictor_corrector";

@@ -151,11 +151,8 @@ simulate_result simulate(const simulate_request& asked, const moment_reader& at)
   const bool keeps = !asked.snapshots.empty();
   if (const std::string why = why_no_moment_files(); keeps && !why.empty()) throw error(why);
   const kept_files files{asked.snapshots};
-  if (keeps) make_folder(files.folder);
-  if (keeps && asked.fresh) files.remove();
   std::optional<saved_moment> saved;
-  if (keeps && fs::exists(files.checkpoint)) saved = read_moment(files.checkpoint);
-  if (keeps && !saved) files.check_free();
+  if (keeps && !asked.fresh && fs::exists(files.checkpoint)) saved = read_moment(files.checkpoint);
   simulate_request r = asked;
   if (saved) take_over(r, saved->settings);
   r = complete(r);
@@ -166,13 +163,14 @@ simulate_result simulate(const simulate_request& asked, const moment_reader& at)
   all = &simulate_registry(start.dx);
   const initial_condition& domain = start.initial;
   const std::string settings = settings_of(r, start.hash);
-  moment from{domain.particles, {}, 0, 0, 0, 0};
-  for (std::size_t i = 0; i < from.particles.size(); ++i) from.ids.push_back(static_cast<std::uint32_t>(i));
+  moment from = start_of(domain.particles);
   if (saved) {
     check_settings(files.folder, saved->settings, settings);
     from = std::move(saved->what);
     result.resumed_from = from.t;
-  } else if (keeps) {
+  } else if (keeps) {  // the request has proved right
+    make_folder(files.folder);
+    asked.fresh ? files.remove() : files.check_free();
     write_moment(files.checkpoint, from, start, settings);  // from now on the folder says whose it is
   }
   std::optional<simulation_log> log;

@@ -15,6 +15,10 @@ namespace pairsum::files {
 /// How a value came to be known.
 enum class origin { read, given, derived, assumed };  ///< `given`: by an option
 
+/// Their words, in this order.
+inline constexpr std::array<std::string_view, 4> origin_words{"read", "given", "derived", "assumed"};
+constexpr std::string_view word_of(origin how) { return origin_words[static_cast<std::size_t>(how)]; }
+
 /// A line of the table of what is known about particles of a file: "H", "0.207846 m", derived, "2 h of the header".
 struct fact {
   std::string what, value;

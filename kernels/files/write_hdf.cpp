@@ -102,10 +102,6 @@ class hdf5_writer {
   hdf5_handle file_;
 };
 
-const char* word_of(origin how) {
-  return how == origin::read ? "read" : how == origin::given ? "given" : how == origin::derived ? "derived" : "assumed";
-}
-
 void write_header(hdf5_writer& out, const initial_condition& c, const snapshot& about, std::uint64_t rows,
                   std::uint64_t lost) {
   const auto dim = static_cast<std::size_t>(c.particles.dim);
@@ -145,7 +141,8 @@ void write_header(hdf5_writer& out, const initial_condition& c, const snapshot& 
   numbers("NextTimeStep", {about.next_dt});
   out.attribute(header, "Settings", about.settings);
   std::string facts;
-  for (const fact& f : about.facts) facts += f.what + " = " + f.value + " (" + word_of(f.how) + ": " + f.from + ")\n";
+  for (const fact& f : about.facts)
+    facts += f.what + " = " + f.value + " (" + std::string(word_of(f.how)) + ": " + f.from + ")\n";
   facts.resize(std::min(facts.size(), longest_text));
   out.attribute(header, "Facts", facts);
 }

@@ -107,6 +107,14 @@ def test_fresh_removes_what_is_there_and_nothing_else(pairsum, kept):
                                                           "snapshots.xmf"]
 
 
+def test_a_refused_request_removes_nothing(pairsum, kept, tmp_path):
+    before = sorted(kept.iterdir())
+    assert refused(pairsum("simulate", *words(cfl=7), "--fresh", "--snapshots", kept), "--cfl")
+    assert sorted(kept.iterdir()) == before
+    assert refused(pairsum("simulate", *words(cfl=7), "--snapshots", "new"), "--cfl")
+    assert not (tmp_path / "new").exists()
+
+
 def test_files_of_others_are_not_written_over(pairsum, tmp_path):
     (tmp_path / "theirs").mkdir()
     (tmp_path / "theirs/log.csv").write_text("precious\n")

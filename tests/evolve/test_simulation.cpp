@@ -1,5 +1,3 @@
-#include <numeric>
-
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/workers.hpp>
 #include <pairsum/sum/setup_of.hpp>
@@ -8,12 +6,6 @@
 
 namespace pairsum::harness {
 namespace {
-
-moment start_of(const initial_condition& c) {
-  moment m{c.particles, std::vector<std::uint32_t>(c.particles.size()), 0, 0, 0, 0};
-  std::iota(m.ids.begin(), m.ids.end(), 0u);
-  return m;
-}
 
 /// A simulation with all that it borrows.
 struct run_of {
@@ -55,7 +47,7 @@ bool same(const moment& a, const moment& b) {
 TEST(simulation, goes_on_with_the_same_bits) {
   const initial_condition c = dam(2, 0.05);
   for (const std::string backend : {"symmetric", "naive_omp", "sliced_2colour", "tiles_omp", "verlet_list"}) {
-    run_of whole(c, start_of(c), backend, {});
+    run_of whole(c, start_of(c.particles), backend, {});
     const moment half = whole.go_to(0.05), end = whole.go_to(0.1);
     EXPECT_EQ(end.t, 0.1);
     run_of later(c, half, backend, {}, 3);  // with another number of threads
@@ -68,9 +60,9 @@ TEST(simulation, goes_on_with_the_same_bits) {
 TEST(simulation, walls_hold_where_mirrored_ones_leak) {
   for (const auto& [dim, dx] : {std::pair(2, 0.03), std::pair(3, 0.06)}) {
     const initial_condition c = dam(dim, dx);
-    run_of hard(c, start_of(c), "sliced_2colour", {});
+    run_of hard(c, start_of(c.particles), "sliced_2colour", {});
     EXPECT_EQ(hard.go_to(0.5).lost, 0u) << dim;
-    run_of mirrored(c, start_of(c), "sliced_2colour", {}, 2, "ferrari09");
+    run_of mirrored(c, start_of(c.particles), "sliced_2colour", {}, 2, "ferrari09");
     const moment end = mirrored.go_to(0.5);
     EXPECT_GT(end.lost, 0u) << dim;
     EXPECT_EQ(end.particles.size() + end.lost, c.particles.size());
@@ -79,7 +71,7 @@ TEST(simulation, walls_hold_where_mirrored_ones_leak) {
 }
 
 std::string error_of(const initial_condition& c, const step_rules& rules, double until, const char* interaction) {
-  run_of run(c, start_of(c), "symmetric", rules, 1, interaction);
+  run_of run(c, start_of(c.particles), "symmetric", rules, 1, interaction);
   try {
     run.go_to(until);
   } catch (const error& e) {
@@ -99,7 +91,7 @@ TEST(simulation, stops_with_step_and_particle) {
 
 TEST(simulation, a_step_ends_where_it_is_told_to) {
   const initial_condition c = dam(2, 0.1);
-  run_of run(c, start_of(c), "symmetric", {.dt = 0.001}, 1);
+  run_of run(c, start_of(c.particles), "symmetric", {.dt = 0.001}, 1);
   run.steps.step(1);
   EXPECT_EQ(run.steps.t(), 0.001);
   run.steps.step(0.0015);
