@@ -22,10 +22,16 @@ def calls(text):
             yield words[0], [word for word in words if re.match(r"--\w", word)]
 
 
+def whole_help(pairsum, command):
+    """The help of a command, and of those that it sends its reader to."""
+    text = pairsum(command, "--help").stdout
+    return text + "".join(pairsum(other, "--help").stdout for other in re.findall(r"pairsum (\w+) --help", text))
+
+
 def unknown_options(pairsum, text):
     helps = {}
     for command, options in calls(text):
-        known = helps.setdefault(command, pairsum(command, "--help").stdout)
+        known = helps.setdefault(command, whole_help(pairsum, command))
         yield from (f"{command} {option}" for option in options if not re.search(rf"{option}\b", known))
 
 
