@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include <pairsum/sum/grids.hpp>
+#include "harness/evolve/evolved.hpp"
 #include "harness/plan/levels.hpp"
+#include "harness/plan/words.hpp"
 #include "harness/run/estimate.hpp"
 
 namespace pairsum::harness {
@@ -69,6 +71,10 @@ std::string dry_run(const study_plan& plan, const registry& all) {
                           duration(time.verify_s(k)));
     if (!part.reason.empty()) text += "  because: " + part.reason + "\n";
     text += levels_text(part.request);
+    for (const std::string& state : part.request.states)
+      if (evolved_time(state))
+        text += fmt::format("  {} is stepped to before, which takes minutes, unless it is kept in {}\n", state,
+                            cache_folder().string());
     if (const auto why = here.left_out.find(name); why != here.left_out.end())
       for (const std::string& line : why->second) text += "  left out: " + line + "\n";
     if (whole) continue;

@@ -31,6 +31,11 @@ double particles_of(const run_request& r, double dx) {
   return may_fit ? estimated : made(dx);
 }
 
+/// How much more pairs a particle has than at H = 2 dx, about; the rest of a step costs at least a quarter of that.
+double more_pairs(const run_request& r, double dx) {
+  return r.H > 0 ? std::max(0.25, std::pow(r.H / (2 * dx), r.dim)) : 1;
+}
+
 }  // namespace
 
 estimate::estimate(const study_plan& plan, const registry& all) : budget_s_(plan.budget_s) {
@@ -38,11 +43,11 @@ estimate::estimate(const study_plan& plan, const registry& all) : budget_s_(plan
   for (const part_plan& part : plan.parts) {
     part_estimate e;
     e.rounds = part.half_width > 0 ? part.least_rounds : part.most_rounds;
-    std::map<double, double> particles;
+    std::map<double, double> particles;  // each counted as often as it has more pairs
     for (const world_plan& points : expand(part.request, all))
       for (const point& p : points) {
         auto [at, is_new] = particles.try_emplace(p.dx);
-        if (is_new) at->second = particles_of(part.request, p.dx);
+        if (is_new) at->second = particles_of(part.request, p.dx) * more_pairs(part.request, p.dx);
         e.work += at->second * part.request.steps * part.request.repetitions * plan.builds / std::min(p.threads, cores);
         ++e.points;
       }

@@ -32,7 +32,7 @@ class estimate {
   double work_s(std::size_t part) const { return rate_ * parts_[part].work + 0.3; }
 
   struct part_estimate {
-    double work = 0;  ///< particles x steps / threads, over the points
+    double work = 0;  ///< particles x pairs over those at H = 2 dx x steps / threads, over the points
     std::size_t points = 0;
     int rounds = 1;
     std::optional<double> verify_s, round_s;

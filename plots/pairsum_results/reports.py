@@ -6,6 +6,7 @@ import pandas as pd
 
 from . import compare, ladders
 from .answers import Answer, answer
+from .densities import density
 from .load import Results, place_words
 from .model import models, shares
 from .questions import questions
@@ -16,7 +17,7 @@ from .stats import FEWEST_FOR_MEDIAN
 @dataclasses.dataclass
 class Report:
     """`points` are those of the results with what models and shares say; the other tables are what the functions of
-    their names give, with `standings`, `ladder`, `shifts` and `strategies` of ladders.py."""
+    their names give: compare.py, densities.py, and ladders.py for `standings`, `ladder`, `shifts`, `strategies`."""
     results: Results
     title: str
     points: pd.DataFrame
@@ -25,6 +26,7 @@ class Report:
     runtime_comparison: pd.DataFrame
     compiler_comparison: pd.DataFrame
     m_comparison: pd.DataFrame
+    density: pd.DataFrame
     standings: pd.DataFrame
     ladder: pd.DataFrame
     shifts: pd.DataFrame
@@ -50,7 +52,7 @@ def report(results: Results) -> Report:
     tested, said = self_test(results), answer(results)
     asked = questions(results, points["series"][said.point], {**of_points, "points": points}) if said else []
     studies, hosts = results.series["study"].unique(), results.environments["host"].unique()
-    return Report(results, f"{', '.join(studies)} on {', '.join(hosts)}", points, **of_points,
+    return Report(results, f"{', '.join(studies)} on {', '.join(hosts)}", points, **of_points, density=density(results),
                   standings=ladders.standings(results), ladder=found,
                   shifts=shifted, strategies=ladders.strategies(results, found, shifted), self_test=tested, answer=said,
                   questions=asked, caveats=_caveats(results, of_points, tested))

@@ -131,6 +131,12 @@ def all_tables(report: Report) -> Iterator[Table]:
                  backend=lambda e: e.backend, threads=lambda e: whole(e.threads), ratio=lambda e: _ratio(e, digits=2),
                  here_it_is=lambda e: e.verdict, rank=lambda e: f"{e.rank} of {e.of}",
                  rank_there=lambda e: f"{e.base_rank} of {e.base_of}")
+    worth = report.density[report.density["fastest_symmetric"]]
+    yield _table("Pairs per particle: the fastest backend that computes each pair once against the fastest gather; ns "
+                 "per pair of prepare,\nzero, sum and reduce together", worth, 4, particles=lambda e: e.world,
+                 units=lambda e: e.units, backend=lambda e: e.backend, gather=lambda e: e.base_backend,
+                 threads=lambda e: whole(e.threads), pairs=lambda e: fixed(e.pairs_per_particle, 1),
+                 ns_per_pair=lambda e: fixed(e.ns_per_pair, 2), symmetric_is_faster_by=lambda e: _ratio(e, digits=2))
     yield _table("Self-test: summation time over that of the base against what is known (95 % over the whole table)",
                  report.self_test, 3, what=lambda e: e.what, backend=lambda e: e.backend, state=lambda e: e.state,
                  dx=lambda e: f"{e.dx:.10g}", M=lambda e: whole(e.M), threads=lambda e: whole(e.threads),

@@ -39,7 +39,20 @@ def test_dry_run_prints_the_design_and_writes_nothing(pairsum, plan, files):
     assert files() == []
 
 
-@pytest.mark.parametrize("name", ["quick", "talk", "size", "m_sweep", "granularity", "compilers", "self_test", "vector"])
+def test_a_dry_run_says_what_is_made_before_and_that_more_pairs_take_longer(pairsum, tmp_path, monkeypatch):
+    words = ["run", "--dx", "0.06", "--backend", "naive", "--M", "7", "--steps", "4000", "--dry-run"]
+    monkeypatch.setenv("PAIRSUM_CACHE", str(tmp_path / "kept"))
+    evolved = pairsum(*words, "--state", "rest,evolved:0.5")
+    assert f"evolved:0.5 is stepped to before, which takes minutes, unless it is kept in {tmp_path}/kept\n" in evolved.stdout
+    assert "stepped to before" not in pairsum(*words).stdout
+    takes = [re.search(r"a round takes about (\d+) (s|min)", pairsum(*words, "--H", H).stdout) for H in ("0.12", "0.24")]
+    seconds = [float(found[1]) * (60 if found[2] == "min" else 1) for found in takes]
+    assert seconds[1] > 3 * seconds[0]
+    assert not (tmp_path / "kept").exists()
+
+
+@pytest.mark.parametrize("name", ["quick", "talk", "size", "m_sweep", "granularity", "compilers", "self_test", "vector",
+                                  "lanes", "field", "density"])
 def test_plans_that_come_with_the_program(pairsum, files, tmp_path, name):
     shown = pairsum("run", name, "--show-plan")
     assert shown.returncode == 0, shown.stderr

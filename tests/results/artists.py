@@ -48,6 +48,26 @@ def everything(threads=(1, 2, 4, 8, 16), rounds=6):
     return made.study(points, rounds, before)
 
 
+#: H of density() in spacings -> interacting pairs.
+PAIRS = {2.0: 14000, 3.0: 54000, 4.16: 140000}
+
+
+def density(radii=PAIRS):
+    """Rows of two states at several H, a thousand fluid particles each: the scalar symmetric sum is twice as fast as the
+    gather at every H, tiles gain 1.5 at first and nothing at last."""
+    points = []
+    for state, slower in (("rest", 1.0), ("perturbed", 1.25)):
+        for k, (radius, pairs) in enumerate(radii.items()):
+            for name, ns, isa in (("naive_omp", 10, "scalar"), ("symmetric_omp", 5, "scalar"), ("copies_omp", 6, "scalar"),
+                                  ("again_naive_omp", 1, "scalar"), ("naive_tiles_omp", 2, "avx512"),
+                                  ("tiles_omp", 2 / (1.5, 1.2, 1.0)[k], "avx512")):
+                place = made.point(name, None, 1, state=state, H=radius * 0.00594, n_fluid=1000, n_boundary=900,
+                                   grid="compact_grid", isa=isa)
+                lanes = {"vector_units": {"block": "none", "lanes": 8, "vectors": 1000, "occupancy": 0.9}} if isa != "scalar" else {}
+                points.append((place, slower * ns * pairs * 1e-9, {"work": {**made.work(pairs_interacting=pairs), **lanes}}))
+    return made.study(points)
+
+
 def report(tmp_path, rows):
     return pr.report(collect(read([made.write(tmp_path / "study/rows.jsonl", rows)])))
 

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 import pairsum_results as pr
 from pairsum_results import figures
-from pairsum_results.figures import PAPER, Look, bars, cases, ladder, over, ratios, roofline, style, threads
+from pairsum_results.figures import PAPER, Look, bars, cases, density, ladder, over, ratios, roofline, style, threads
 from pairsum_results.figures.sheet import packed
 
 PAGE = Look(titled=False)
@@ -35,6 +35,12 @@ def two(tmp_path_factory):
     return artists.report(tmp_path_factory.mktemp("two"), rows)
 
 
+@pytest.fixture(scope="module")
+def dense(tmp_path_factory):
+    """A report over pairs per particle."""
+    return artists.report(tmp_path_factory.mktemp("dense"), artists.density())
+
+
 def sheets(drawing, report, look=PAGE):
     """The figures of a drawing."""
     return [figures.draw(one, report, look) for one in figures.sheets(report, look) if one.drawing is drawing]
@@ -45,11 +51,11 @@ def first(drawing, report, title=""):
     return next(axes for figure in sheets(drawing, report) for name, axes in artists.panels(figure).items() if title in name)
 
 
-def test_a_figure_is_drawn_where_it_says_something(full, two):
-    assert {one.drawing for one in figures.sheets(full)} == set(figures.ALL)
+def test_a_figure_is_drawn_where_it_says_something(full, two, dense):
+    assert {one.drawing for report in (full, dense) for one in figures.sheets(report)} == set(figures.ALL)
     missing = set(figures.ALL) - {one.drawing for one in figures.sheets(two)}
     assert {d.name for d in missing} == {"barrier_wait", "m_comparison", "size_scaling", "granularity", "compilers",
-                                         "self_test", "cases"}  # talk() has two M and one size
+                                         "self_test", "cases", "density"}  # talk() has two M and one size
     assert all(d.table in full.tables for d in figures.ALL)
 
 
@@ -190,6 +196,22 @@ def test_sizes_and_granularities_are_lines(full):
     assert len({y for _, y in drawn["guided"]}) == 1
 
 
+def test_costs_per_pair_and_what_symmetry_is_worth_are_lines_over_pairs_per_particle(dense):
+    cost = artists.lines(first(density.DENSITY, dense, "perturbed"))
+    assert set(cost) == {"gather, scalar", "colours, scalar", "copies, scalar", "gather, vector", "colours, vector"}
+    ns = 1.5 * made.MEDIAN * 1.25  # of an evaluation; the state is that much slower
+    assert cost["gather, scalar"] == [(x, pytest.approx(10 * ns)) for x in (14, 54, 140)]
+    assert [y for _, y in cost["colours, vector"]] == pytest.approx([2 * ns / gain for gain in (1.5, 1.2, 1.0)])
+    worth = artists.lines(first(density.DENSITY, dense, "symmetric against gather"))
+    assert [y for _, y in worth["rest, vector"]] == pytest.approx([1.5, 1.2, 1.0])
+    assert [y for _, y in worth["rest, scalar"]] == pytest.approx([2.0] * 3) and "equal" in worth
+
+
+def test_two_densities_are_no_line(tmp_path):
+    two = artists.report(tmp_path, artists.density({2.0: 14000, 3.0: 54000}))
+    assert two.density.empty and not density.DENSITY.panels(two)
+
+
 @pytest.mark.parametrize("drawing, table", [(ratios.COMPILERS, "compiler_comparison"), (ratios.SELF_TEST, "self_test")])
 def test_ratios_are_dots_with_intervals_and_a_word(full, drawing, table):
     axes, rows = first(drawing, full), full.tables[table]
@@ -202,8 +224,8 @@ def test_ratios_are_dots_with_intervals_and_a_word(full, drawing, table):
 
 @pytest.mark.parametrize("look", [Look(), PAGE, NARROW, PAPER], ids=["file", "page", "narrow", "paper"])
 @pytest.mark.parametrize("drawing", figures.ALL, ids=lambda drawing: drawing.name)
-def test_no_text_lies_on_another_or_leaves_the_figure(full, two, drawing, look):
-    for figure in (figure for report in (full, two) for figure in sheets(drawing, report, look)):
+def test_no_text_lies_on_another_or_leaves_the_figure(full, two, dense, drawing, look):
+    for figure in (figure for report in (full, two, dense) for figure in sheets(drawing, report, look)):
         with figures.applied(look):
             assert artists.overlaps(figure) == []
         if look is PAPER:
