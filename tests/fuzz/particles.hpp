@@ -23,12 +23,16 @@ inline void check_particles(const files::file_content& c, std::size_t size) {
   for (const auto& column : {c.rho, c.m, c.h}) check(column);
   for (const auto& [name, column] : c.others) check(column);
   if (!c.kind.empty() && c.kind.size() != rows) fault("kinds of a different length");
-  if (c.x[1].empty() || c.x[2].empty() != (c.dim == 2)) fault("axes that the dimension has not");
-  if (c.v[0].empty() != c.v[1].empty() || (!c.v[0].empty() && c.v[2].empty() != (c.dim == 2)))
-    fault("some velocities only");
+  // 2D may be in x and y or in x and z, as the file has it; velocities are along the same axes.
+  const auto axes_of = [](const auto& columns) {
+    return (columns[0].empty() ? 0 : 1) | (columns[1].empty() ? 0 : 2) | (columns[2].empty() ? 0 : 4);
+  };
+  const int of_x = axes_of(c.x), of_v = axes_of(c.v);
+  if (c.dim == 2 ? of_x != 3 && of_x != 5 : of_x != 7) fault("axes that the dimension has not");
+  if (of_v != 0 && of_v != of_x) fault("some velocities only");
   if (c.box_low.size() != c.box_high.size()) fault("half a box");
   for (std::size_t d = 0; d < c.box_low.size(); ++d)
-    if (!(c.box_low[d] < c.box_high[d])) fault("a box without inside");
+    if (!c.x[d].empty() && !(c.box_low[d] < c.box_high[d])) fault("a box without inside");
   if (c.time && !std::isfinite(*c.time)) fault("a time that is not finite");
   for (const files::fact& f : c.facts) check_message(f.what + f.value + f.from);
 }
