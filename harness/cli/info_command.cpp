@@ -100,6 +100,15 @@ std::string extents_text(const particle_table& p) {
   return text;
 }
 
+/// Which backends to expect in front, by the studies `density` and `field` (docs/results.md).
+std::string expected(double pairs_per_particle) {
+  constexpr double few = 3;
+  return pairs_per_particle < few
+             ? "expect verlet_list in front, which keeps a list of few pairs; pairsum tune measures it"
+             : "expect tiles_tbb, tiles_omp, sliced_2colour_tbb, sliced_locks, task_conflicts on vector units in front; "
+               "pairsum tune measures it";
+}
+
 std::string info_text(const particles_of_request& set, const pair_counts& counts) {
   const initial_condition& c = set.initial;
   const work_counts& w = counts.work;
@@ -119,6 +128,7 @@ std::string info_text(const particles_of_request& set, const pair_counts& counts
   if (w.pairs_tested > 0)
     line("useful pairs", fmt::format("{:.1f} % of the distance tests hit", 100.0 * static_cast<double>(counts.pairs()) /
                                                                                static_cast<double>(w.pairs_tested)));
+  line("backends", expected(static_cast<double>(counts.pairs()) / fluid));
   line("grid", filled > 0.5
                    ? fmt::format("{:.0f} % of the cells are filled: dense_grid looks at few empty ones", 100 * filled)
                    : fmt::format("{:.0f} % of the cells are filled: compact_grid and hashed_grid keep no empty ones",
@@ -130,6 +140,7 @@ int info(const info_options& o, const given_options& given) {
   run_request r = levels_of(o.levels, "", given);
   for (const std::string& list : o.files)
     for (std::string& path : parse_words("info", list)) r.particles.push_back(std::move(path));
+  r.H_in_spacings = 2;  // nothing is measured: an assumption that the table names will do
   const std::string table = take_particles(r);
   const particles_of_request set = initial_of(r, r.dx.front(), state_of_files);
   if (o.json) {
@@ -152,7 +163,8 @@ void add_info_command(CLI::App& app, action& chosen) {
   command
       ->add_option("files", o->files, "CSV, HDF5 (GADGET, SWIFT, PySPH, H5Part, SPH-EXA, VTKHDF), bi4 of DualSPHysics")
       ->required();
-  command->add_option("--H", o->levels["H"], "support radius in m, for all particles");
+  command->add_option("--H", o->levels["H"],
+                      "support radius in m, for all particles [what files say, else 2 spacings]");
   command->add_option("--dim", o->levels["file_dim"],
                       "dimension (default: a constant column of positions is left out)");
   add_particle_hints(*command, o->levels);

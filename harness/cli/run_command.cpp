@@ -19,6 +19,7 @@
 #include "harness/plan/study.hpp"
 #include "harness/plugin/plugins.hpp"
 #include "harness/run/dry_run.hpp"
+#include "harness/run/point_setup.hpp"
 #include "harness/run/study.hpp"
 #include "harness/run/worker.hpp"
 #include "harness/run/writable_file.hpp"
@@ -175,6 +176,10 @@ int start(const run_options& o, const given_options& given) {
     return 0;
   }
   const registry& all = registry_of(plan);
+  told.clear();
+  for (part_plan& p : plan.parts)
+    if (const std::string left_out = leave_out_wide_skins(p.request, all); told.insert(left_out).second)
+      fmt::print("{}", left_out);
   if (o.dry_run) {
     fmt::print("{}", in_plan(o, [&] { return dry_run(plan, all); }));
     if (const std::string why = too_many(threads_of(measurable(plan, all).plan, all)); !why.empty() && !o.oversubscribe)

@@ -131,6 +131,7 @@ int verify(const verify_options& o) {
         run_request here = there;
         here.dx = {dx};
         here.states = {state};
+        fmt::print(o.json ? stderr : stdout, "{}", leave_out(here, wide_skins(c, r), r));
         for (const run_request& part : o.all_M ? std::vector{here} : parts_with_M_that_fit(here, c))
           verify_all(r, c, verify_plan_of(part, r), [&](const verify_line& l) { report.add(l); });
       }

@@ -32,8 +32,9 @@ moment step_to(double time, const initial_condition& start, double dx, const std
   s.interaction = "ferrari09_hard";
   s.grid = "compact_grid";
   s.isa = "scalar";
+  s.constants.dx = dx;
   const worker_team workers(runtime::omp, untimed_threads(usable_cores()));
-  simulation run(simulate_registry(dx).make_summation(s), start, start_of(start.particles), {}, workers.get());
+  simulation run(simulate_registry().make_summation(s), start, start_of(start.particles), {}, workers.get());
   progress shown(time);
   while (run.t() < time) {
     run.step(time);

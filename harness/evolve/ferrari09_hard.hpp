@@ -6,15 +6,11 @@
 
 namespace pairsum::harness {
 
-/// The spacing of particles (m) that sums which are made from now on take for their walls; 0: H/2. A formula is made of
-/// the constants of a setup alone, which have no spacing: simulate_registry() sets it.
-inline double wall_spacing = 0;
-
 /// ferrari09 with walls that hold. Its mirrored ghosts cannot: the force of a boundary particle's ghost is F(2 d) d,
 /// which goes to 0 with the distance d, and the pressure of the fluid behind pushes a particle through. So boundary
 /// particles also repel, as those of Monaghan & Kajtar (Comput. Phys. Commun. 180 (2009) 1811), singular at d = 0:
 ///
-///   dv_i/dt += K (1 - r2/R2)^2 r/r2    for r = x_i - x_b, |r| < R = min(H/2, spacing),    K = 0.2 c0^2
+///   dv_i/dt += K (1 - r2/R2)^2 r/r2    for r = x_i - x_b, |r| < R = min(H/2, dx),    K = 0.2 c0^2
 ///
 /// c0: the sound speed at rest. K is a squared speed as in g depth, so walls hold at every spacing. Fluid that begins a
 /// spacing away from its walls is not pushed.
@@ -31,7 +27,7 @@ class ferrari09_hard : public ferrari09<D, R, Smoothing> {
   explicit ferrari09_hard(const physics& p)
       : base(p),
         strength_(R(wall_strength * p.eos.sound_speed0() * p.eos.sound_speed0())),
-        inv_reach2_(R(1 / std::pow(wall_spacing > 0 ? std::min(p.H / 2, wall_spacing) : p.H / 2, 2))) {}
+        inv_reach2_(R(1 / std::pow(p.dx > 0 ? std::min(p.H / 2, p.dx) : p.H / 2, 2))) {}
 
   template <class T>
   typename base::template rates<T> boundary(const vec<D, T>& r, const T& r2,

@@ -37,6 +37,7 @@ const std::vector<std::string_view> quantities{"x", "y", "z", "vx", "vy", "vz", 
 files::hints hints_of(const run_request& r) {
   files::hints told;
   if (r.H != 0) told.H = r.H;
+  if (r.H_in_spacings != 0) told.H_in_spacings = r.H_in_spacings;
   for (const auto& [word, text] : r.hints) {
     const std::string option = option_of(word);
     const std::pair<const char*, std::optional<double> files::hints::*> numbers[] = {
@@ -82,7 +83,7 @@ particles_of_request read(const run_request& r) {
 
 particles_of_request particles_of_files(const run_request& r) {
   static std::optional<std::pair<std::string, particles_of_request>> last;
-  const std::string key = nlohmann::json{r.particles, r.hints, r.H}.dump();
+  const std::string key = nlohmann::json{r.particles, r.hints, r.H, r.H_in_spacings}.dump();
   if (!last || last->first != key) last.emplace(key, read(r));
   return last->second;
 }

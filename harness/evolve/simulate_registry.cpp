@@ -16,8 +16,7 @@ void add_walls(registry& r) {
 
 }  // namespace
 
-const registry& simulate_registry(double spacing) {
-  wall_spacing = spacing;
+const registry& simulate_registry() {
   static const registry extended = [] {
     registry r = registry::instance();
     add_walls<1>(r);

@@ -4,7 +4,6 @@
 namespace pairsum::harness {
 
 /// The library's registry and ferrari09_hard: with wendland_c2, in double, in every dimension of this build.
-/// @param spacing of the particles, m; see wall_spacing
-const registry& simulate_registry(double spacing);
+const registry& simulate_registry();
 
 }  // namespace pairsum::harness

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -55,15 +54,9 @@ void simulation::fail(const std::string& what) const {
 
 void simulation::step(double end) {
   if (rules_.dt > 0) now_.next_dt = rules_.dt;
-  if (now_.next_dt == 0) {  // the first step: of what stands there, before any rate is known
-    extremes start{.acceleration = domain_.gravity};
-    for (std::size_t i = 0; i < now_.particles.size(); ++i) {
-      if (now_.particles.kind[i] != particle_kind::fluid) continue;
-      double v2 = 0;
-      for (const auto& v : now_.particles.v) v2 += v[i] * v[i];
-      start.speed = std::max(start.speed, std::sqrt(v2));
-      start.density = std::max(start.density, now_.particles.rho[i]);
-    }
+  if (now_.next_dt == 0) {  // the first step, before any rate is known
+    extremes start = extremes_of(*sum_, domain_.gravity, team_);
+    start.acceleration = domain_.gravity;
     now_.next_dt = time_step(start, domain_.H, domain_.eos, rules_.cfl);
   }
   const bool ends = now_.t + now_.next_dt >= end;

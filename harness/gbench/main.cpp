@@ -19,6 +19,7 @@
 #include "harness/plan/refusal.hpp"
 #include "harness/plan/variants.hpp"
 #include "harness/plugin/plugins.hpp"
+#include "harness/run/point_setup.hpp"
 #include "harness/terminal/program.hpp"
 
 namespace {
@@ -80,6 +81,7 @@ words_given parse(int argc, char** argv) {
   levels["backend"] = fmt::format("{}", fmt::join(available_backends(), ","));
   r.levels = levels_of(levels, "", given_of(app));
   fmt::print(stderr, "{}", take_particles(r.levels));
+  fmt::print(stderr, "{}", leave_out_wide_skins(r.levels, registry::instance()));
   check_request(r.levels);
   check_cores(r.levels.threads, oversubscribe);
   return w;

@@ -16,6 +16,7 @@ struct run_request {
   std::vector<std::string> particles;        ///< files in place of a case; see take_particles()
   std::map<std::string, std::string> hints;  ///< what they do not say, by the words of particle_hints()
   std::string particles_hash;                ///< of what was read; empty: not read yet
+  double H_in_spacings = 0;                  ///< of files where nothing says H; 0: that is an error
   std::vector<double> dx{0.02};
   std::vector<std::string> states{"rest"};
   std::vector<std::string> backends{"naive_omp", "symmetric_omp"};

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include <pairsum/sum/grids.hpp>
 #include "harness/evolve/evolved.hpp"
 #include "harness/plan/levels.hpp"
 #include "harness/plan/words.hpp"
 #include "harness/run/estimate.hpp"
+#include "harness/terminal/program.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -48,6 +50,17 @@ std::string levels_text(const run_request& r) {
   return text;
 }
 
+/// What has to be stepped to before anything is measured.
+std::string evolved_states_text(const study_plan& plan) {
+  std::set<std::string> evolved;
+  for (const part_plan& part : plan.parts)
+    for (const std::string& state : part.request.states)
+      if (evolved_time(state)) evolved.insert(state);
+  if (evolved.empty()) return "";
+  return fmt::format("\nmade before, which takes minutes, unless kept in {}: {}\n", one_line(cache_folder().string()),
+                     fmt::join(evolved, ", "));
+}
+
 }  // namespace
 
 std::string dry_run(const study_plan& plan, const registry& all) {
@@ -58,6 +71,7 @@ std::string dry_run(const study_plan& plan, const registry& all) {
   if (plan.builds > 1) text += fmt::format("compares {} builds: this program and what --program names\n", plan.builds);
   if (plan.peaks && !here.plan.parts.empty())
     text += fmt::format("\npeaks: bandwidth and multiply-adds of the machine, about {}\n", duration(time.peaks_s()));
+  text += evolved_states_text(here.plan);
   std::size_t k = 0;  // among the parts that can be measured
   double unlimited = time.peaks_s();
   for (const part_plan& part : plan.parts) {
@@ -71,10 +85,6 @@ std::string dry_run(const study_plan& plan, const registry& all) {
                           duration(time.verify_s(k)));
     if (!part.reason.empty()) text += "  because: " + part.reason + "\n";
     text += levels_text(part.request);
-    for (const std::string& state : part.request.states)
-      if (evolved_time(state))
-        text += fmt::format("  {} is stepped to before, which takes minutes, unless it is kept in {}\n", state,
-                            cache_folder().string());
     if (const auto why = here.left_out.find(name); why != here.left_out.end())
       for (const std::string& line : why->second) text += "  left out: " + line + "\n";
     if (whole) continue;

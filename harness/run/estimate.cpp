@@ -31,9 +31,10 @@ double particles_of(const run_request& r, double dx) {
   return may_fit ? estimated : made(dx);
 }
 
-/// How much more pairs a particle has than at H = 2 dx, about; the rest of a step costs at least a quarter of that.
+/// How many times as many pairs as at H = 2 dx a particle has, about; the rest of a step costs a quarter of those.
 double more_pairs(const run_request& r, double dx) {
-  return r.H > 0 ? std::max(0.25, std::pow(r.H / (2 * dx), r.dim)) : 1;
+  const double H = r.particles.empty() ? r.H : initial_of(r, dx, state_of_files).initial.H;
+  return H > 0 ? std::max(0.25, std::pow(H / (2 * dx), r.dim)) : 1;
 }
 
 }  // namespace

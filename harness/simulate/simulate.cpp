@@ -156,11 +156,10 @@ simulate_result simulate(const simulate_request& asked, const moment_reader& at)
   simulate_request r = asked;
   if (saved) take_over(r, saved->settings);
   r = complete(r);
-  const registry* all = &simulate_registry(0);
+  const registry& all = simulate_registry();
   simulate_result result;
-  result.what = only_point(r.levels, *all);
+  result.what = only_point(r.levels, all);
   const particles_of_request start = initial_of(r.levels, r.levels.dx.front(), r.levels.states.front());
-  all = &simulate_registry(start.dx);
   const initial_condition& domain = start.initial;
   const std::string settings = settings_of(r, start.hash);
   moment from = start_of(domain.particles);
@@ -183,7 +182,7 @@ simulate_result simulate(const simulate_request& asked, const moment_reader& at)
 
   const thread_binding binding(r.binding);
   const point& p = result.what;
-  auto sum = all->make_summation(setup_of_point(p, domain));
+  auto sum = all.make_summation(setup_of_point(p, domain));
   const runtime kind = sum->traits().threads;
   const worker_team workers(kind, p.threads, &binding);
   const team t = workers.get().with(parse_granularity(p.granularity, kind));

@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -55,15 +57,32 @@ int carried_out(const std::function<int()>& work) {
   return 2;
 }
 
+/// Code points that are not seen but change what is: controls, soft hyphen, directions of writing, separators, joiners
+/// of words, tags. ZWJ and ZWNJ, which scripts need, are not among them.
+constexpr std::array<std::array<std::uint32_t, 2>, 9> unseen{{{0x00, 0x1F},
+                                                              {0x7F, 0x9F},
+                                                              {0xAD, 0xAD},
+                                                              {0x61C, 0x61C},
+                                                              {0x200B, 0x200B},
+                                                              {0x200E, 0x200F},
+                                                              {0x2028, 0x202E},
+                                                              {0x2060, 0x206F},
+                                                              {0xFEFF, 0xFEFF}}};
+constexpr std::uint32_t tags = 0xE0000, end_of_tags = 0xE007F, end_of_unicode = 0x10FFFF;
+
 /// How many bytes the UTF-8 character at the beginning has; 0 if there is none that can be shown.
 std::size_t shown_bytes(std::string_view text) {
-  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
-  if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7F ? 1 : 0;
-  const std::size_t size = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
-  if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < size) return 0;
-  for (std::size_t k = 1; k < size; ++k)
-    if ((byte(k) & 0xC0U) != 0x80U) return 0;
-  return byte(0) == 0xC2 && byte(1) < 0xA0 ? 0 : size;  // U+0080 to U+009F steer terminals, too
+  const auto byte = [&](std::size_t k) { return std::uint32_t{static_cast<unsigned char>(text[k])}; };
+  const std::size_t size = byte(0) < 0x80 ? 1 : byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
+  if ((byte(0) >= 0x80 && byte(0) < 0xC2) || text.size() < size) return 0;
+  std::uint32_t point = byte(0) & (size == 1 ? 0x7Fu : 0xFFu >> (size + 1));
+  for (std::size_t k = 1; k < size; ++k) {
+    if ((byte(k) & 0xC0u) != 0x80u) return 0;
+    point = point << 6 | (byte(k) & 0x3Fu);
+  }
+  constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};  // of so many bytes
+  if (point < least[size] || point > end_of_unicode || (point >= tags && point <= end_of_tags)) return 0;
+  return std::ranges::any_of(unseen, [&](const auto& r) { return point >= r[0] && point <= r[1]; }) ? 0 : size;
 }
 
 }  // namespace

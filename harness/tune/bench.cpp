@@ -8,6 +8,7 @@
 #include "harness/environment/machine.hpp"
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
+#include "harness/plan/variants.hpp"
 #include "harness/run/point_setup.hpp"
 
 namespace pairsum::harness {
@@ -26,6 +27,12 @@ void tune_bench::leave_out_M_that_do_not_fit(std::vector<point>& points) const {
   std::erase_if(points, [&](const point& p) { return p.M > 0 && !M_fits(p.M, p.backend, particles_.initial, all_); });
   if (points.empty())
     throw error("none of the M that are tried goes round the periodic box: name some with --M, or another --grid");
+}
+
+void tune_bench::leave_out_wide_skins(std::vector<point>& points) const {
+  if (request_.levels.backends != available_backends(all_)) return;
+  const std::vector<std::string> wide = wide_skins(particles_.initial, all_);
+  std::erase_if(points, [&](const point& p) { return std::ranges::find(wide, p.backend) != wide.end(); });
 }
 
 void tune_bench::check_input(const point& p) const {

@@ -19,6 +19,9 @@ class tune_bench {
   /// Of M that nobody asked for those that do not go round a periodic box. Throws pairsum::error if nothing is left.
   void leave_out_M_that_do_not_fit(std::vector<point>& points) const;
 
+  /// Of backends that nobody named those whose skin a periodic box has no room for.
+  void leave_out_wide_skins(std::vector<point>& points) const;
+
   /// Throws pairsum::error if a point's summation does not take the particles.
   void check_input(const point& p) const;
 

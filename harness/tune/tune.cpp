@@ -43,6 +43,7 @@ tune_result tune(const tune_request& r, const registry& all) {
   if (numa_nodes() == 1) keep_freed_memory();
   show("making the particles");
   tune_bench bench(r, result.points.front(), all);
+  bench.leave_out_wide_skins(result.points);
   if (!r.all_M) bench.leave_out_M_that_do_not_fit(result.points);
   bench.check_input(result.points.front());
   for (const point& p : result.points) result.candidates.emplace_back().family = family_of(p);

@@ -20,7 +20,7 @@ endforeach()
 list(TRANSFORM PAIRSUM_ALL_FORMATS REPLACE "(.+)" "files/\\1.cpp" OUTPUT_VARIABLE formats)
 
 add_library(pairsum_files STATIC files/bi4_items.cpp files/complete.cpp files/csv_header.cpp files/csv_lines.cpp files/domain.cpp
-  files/formats.cpp files/hdf5_dialects.cpp files/hdf5_file.cpp files/in_child.cpp files/kinds.cpp files/nearest_spacing.cpp files/read_particles.cpp
+  files/formats.cpp files/hdf5_dialects.cpp files/hdf5_file.cpp files/hdf5_groups.cpp files/in_child.cpp files/kinds.cpp files/nearest_spacing.cpp files/read_particles.cpp
   files/support_radius.cpp files/words.cpp files/write_hdf.cpp files/write_xmf.cpp ${formats})
 add_library(pairsum::files ALIAS pairsum_files)
 target_link_libraries(pairsum_files PUBLIC pairsum_kernels PRIVATE PkgConfig::hdf5)

@@ -78,7 +78,8 @@ struct column {
   std::size_t at;
   std::string name;
   std::vector<double> numbers;
-  bool empty = false;  ///< in all lines
+  bool empty = false;     ///< in all lines
+  bool own_kind = false;  ///< pairsum's Kind, which has other numbers than Type
 
   bool is(std::string_view word) const { return quantity && quantity->word == word; }
   bool must() const { return !quantity || is("x") || is("y") || is("z"); }
@@ -96,6 +97,7 @@ std::vector<column> chosen_columns(const csv_header& header, const hints& told, 
     if (std::ranges::count(header.names, header.names[*at]) > 1)
       lines.refuse("there are two columns " + shown(header.names[*at]));
     chosen.push_back({q, *at, shown(header.names[*at]), {}});
+    chosen.back().own_kind = q != nullptr && header.names[*at] == "Kind";
   };
   for (const auto& [word, name] : told.columns) check_word("quantity of --column", word, words);
   for (const csv_quantity& q : csv_quantities()) {
@@ -113,8 +115,13 @@ std::vector<column> chosen_columns(const csv_header& header, const hints& told, 
   return chosen;
 }
 
-/// DualSPHysics' Type.
+/// pairsum's Kind, or DualSPHysics' Type.
 particle_kind kind_of(double type, const column& c, const csv_lines& lines) {
+  if (c.own_kind) {
+    if (type == 0 || type == 1) return type == 0 ? particle_kind::fluid : particle_kind::boundary;
+    lines.refuse(c.name + " is " + number_text(type) +
+                 ", should be 0 (fluid) or 1 (boundary); for other numbers say --boundary-kind \"Kind=2\", or none");
+  }
   constexpr int fixed = 0, moving = 1, floating = 2, fluid = 3;
   if (type == fixed || type == moving) return particle_kind::boundary;
   if (type == fluid) return particle_kind::fluid;

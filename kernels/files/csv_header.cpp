@@ -82,6 +82,9 @@ std::optional<std::size_t> csv_header::column_named(std::string_view name) const
 std::optional<std::size_t> csv_header::column(const csv_quantity& quantity, const hints& told) const {
   if (const auto named = told.columns.find(std::string(quantity.word)); named != told.columns.end())
     return column_named(named->second);
+  if (quantity.word == "kind")
+    if (const auto own = std::ranges::find(names, "Kind"); own != names.end())
+      return static_cast<std::size_t>(own - names.begin());
   std::string_view spellings = quantity.spellings;
   while (!spellings.empty()) {
     const std::string_view one = spellings.substr(0, spellings.find(','));

@@ -12,8 +12,7 @@
 #include <pairsum/core/names.hpp>
 #include <pairsum/files/column_room.hpp>
 #include <pairsum/files/formats.hpp>
-#include <pairsum/files/hdf5_dialects.hpp>
-#include <pairsum/files/hdf5_file.hpp>
+#include <pairsum/files/hdf5_groups.hpp>
 #include <pairsum/files/in_child.hpp>
 #include <pairsum/files/shown.hpp>
 #include <pairsum/files/words.hpp>
@@ -21,64 +20,21 @@
 namespace pairsum::files {
 namespace {
 
-/// A column of a dataset, and which axis it is of.
-struct source {
-  std::string dataset;
-  std::size_t column = 0, axis = 0;
-};
-using sources = std::vector<source>;
-
-/// A group with particles, and where its columns are. Empty: not there.
-struct particle_group {
-  const hdf5_file* file = nullptr;
-  std::string path, label;  ///< "particles/fluid/arrays", "fluid"
-  sources x, v, rho, m, h, kind, other;
-  std::size_t rows = 0;
-  bool boundary = false;
-
-  int number() const {
-    const std::size_t digits = label.find_last_not_of("0123456789") + 1;
-    return digits < label.size() && label.size() - digits < 9 ? std::stoi(label.substr(digits)) : -1;
-  }
-};
-
-/// A name of a dataset below a group as the file spells it; empty if there is none.
-std::string spelt(const hdf5_file& file, const std::string& group, std::string_view name) {
-  std::string at = group;
-  for (const std::string_view part : split(name, '/')) {
-    const std::vector<std::string> names = file.names(at);
-    auto found = std::ranges::find(names, part);
-    if (found == names.end())
-      found = std::ranges::find_if(names, [&](const std::string& n) { return same_word(n, part); });
-    if (found == names.end()) return {};
-    at += (at.empty() ? "" : "/") + *found;
-  }
-  return at;
-}
-
 /// Reads what one file, or the files of one snapshot, hold.
 class dialect_reader {
  public:
   dialect_reader(const hdf5_file& first, const hdf5_dialect& names, const hints& told)
       : first_(first), names_(names), told_(told) {}
 
-  /// The groups of a file that are meant.
-  std::vector<particle_group> groups_of(const hdf5_file& file);
   void header(const std::vector<particle_group>& groups);
   /// The content of groups of one name: one, or one of each part of a snapshot.
   file_content columns(std::span<const particle_group> groups) const;
   file_content content;
   std::optional<std::vector<double>> attribute(const std::string& group, std::string_view alternatives) const {
-    return attribute(first_, group, alternatives);
+    return attribute_of(first_, group, alternatives);
   }
 
  private:
-  static std::optional<std::vector<double>> attribute(const hdf5_file& file, const std::string& group,
-                                                      std::string_view alternatives);
-  sources datasets(const hdf5_file& file, const std::string& group, std::string_view alternatives) const;
-  sources told_or(const particle_group& g, std::initializer_list<const char*> quantities,
-                  std::string_view alternatives) const;
-  void locate(particle_group& g) const;
   void box(const std::string& group);
   static void quantity(std::span<const particle_group> groups, sources particle_group::*which, const char* what,
                        std::span<std::vector<double>* const> to);
@@ -87,159 +43,6 @@ class dialect_reader {
   const hdf5_dialect& names_;
   const hints& told_;
 };
-
-std::optional<std::vector<double>> dialect_reader::attribute(const hdf5_file& file, const std::string& group,
-                                                             std::string_view alternatives) {
-  for (const std::string_view one : split(alternatives, '|')) {
-    const std::size_t at = one.find('@');
-    const std::string object = at == 0 ? group : std::string(one.substr(0, at)), name(one.substr(at + 1));
-    if (!object.empty() && !file.has(object)) continue;
-    if (auto numbers = file.numbers(object, name)) return numbers;
-    if (const auto text = file.text(object, name))
-      if (const auto number = number_in(*text)) return std::vector<double>{*number};
-  }
-  return {};
-}
-
-sources dialect_reader::datasets(const hdf5_file& file, const std::string& group, std::string_view alternatives) const {
-  for (const std::string_view one : split(alternatives, '|')) {
-    sources found;
-    const auto names = split(one, ',');
-    for (std::size_t axis = 0; axis < names.size(); ++axis) {
-      const std::string dataset = spelt(file, group, names[axis]);
-      if (dataset.empty()) continue;
-      const std::size_t columns = names.size() > 1 ? 1 : file.shape_of(dataset).columns;
-      for (std::size_t c = 0; c < columns; ++c) found.push_back({dataset, c, names.size() > 1 ? axis : c});
-    }
-    if (!found.empty()) return found;
-  }
-  return {};
-}
-
-/// As an option says, DATASET or DATASET:COLUMN, else as the dialect does.
-sources dialect_reader::told_or(const particle_group& g, std::initializer_list<const char*> quantities,
-                                std::string_view alternatives) const {
-  sources found;
-  for (std::size_t axis = 0; axis < quantities.size(); ++axis) {
-    const std::string quantity = quantities.begin()[axis];
-    const auto told = told_.columns.find(quantity);
-    if (told == told_.columns.end()) continue;
-    const std::size_t colon = told->second.rfind(':');
-    const std::string dataset = spelt(*g.file, g.path, told->second.substr(0, colon));
-    const auto column = colon == told->second.npos ? 0 : number_in(told->second.substr(colon + 1)).value_or(-1);
-    if (dataset.empty())
-      throw error(g.file->path() + ": " + g.path + " has no " + told->second + " for " + quantity + "; it has " +
-                  join(g.file->names(g.path)));
-    const std::size_t columns = g.file->shape_of(dataset).columns;
-    if (!(column >= 0 && column < static_cast<double>(columns)))
-      throw error(g.file->path() + ": " + dataset + " has " + std::to_string(columns) + " columns, no " + told->second);
-    found.push_back({dataset, static_cast<std::size_t>(column), axis});
-  }
-  return found.empty() ? datasets(*g.file, g.path, alternatives) : found;
-}
-
-void dialect_reader::locate(particle_group& g) const {
-  g.x = told_or(g, {"x", "y", "z"}, names_.x);
-  if (g.x.empty()) return;
-  g.rows = g.file->shape_of(g.x[0].dataset).rows;
-  g.v = told_or(g, {"vx", "vy", "vz"}, names_.v);
-  g.rho = told_or(g, {"rho"}, names_.rho);
-  g.m = told_or(g, {"m"}, names_.m);
-  g.h = told_or(g, {"h"}, names_.h);
-  g.kind = told_or(g, {"kind"}, names_.kind);
-  if (const auto rule = boundary_rule::of(told_.boundary_kind)) {
-    g.kind.clear();
-    if (!rule->names_groups() && !rule->none()) g.other = datasets(*g.file, g.path, rule->column);
-  }
-  for (const sources* const all : {&g.x, &g.v, &g.rho, &g.m, &g.h, &g.kind, &g.other})
-    for (const source& s : *all) {
-      const std::size_t rows = g.file->shape_of(s.dataset).rows;
-      if (rows != g.rows)
-        throw error(g.file->path() + ": " + s.dataset + " has " + std::to_string(rows) + " rows, but " +
-                    g.x[0].dataset + " has " + std::to_string(g.rows));
-    }
-  for (const sources* const one : {&g.rho, &g.m, &g.h, &g.kind, &g.other})
-    if (one->size() > 1)
-      throw error(g.file->path() + ": " + one->front().dataset + " has several columns, should have one");
-}
-
-/// The groups of a file that match a pattern with at most one *.
-std::vector<particle_group> matching(const hdf5_file& file, std::string_view pattern) {
-  std::vector<particle_group> found;
-  const auto named = [&](const std::string& path, const std::string& label) {
-    particle_group g;
-    g.file = &file;
-    g.path = path;
-    g.label = label;
-    return g;
-  };
-  const std::size_t star = pattern.find('*');
-  if (star == pattern.npos) {
-    if (file.has(std::string(pattern))) found.push_back(named(std::string(pattern), std::string(pattern)));
-    return found;
-  }
-  const std::size_t slash = pattern.rfind('/', star);
-  const std::string parent(slash == pattern.npos ? "" : pattern.substr(0, slash));
-  const std::string_view begins =
-      pattern.substr(slash == pattern.npos ? 0 : slash + 1, star - (slash == pattern.npos ? 0 : slash + 1));
-  const std::string below(pattern.substr(star + 1));
-  for (const std::string& name : file.names(parent)) {
-    const std::string path = (parent.empty() ? "" : parent + "/") + name + below;
-    if (name.starts_with(begins) && file.has(path)) {
-      found.push_back(named(path, name));
-    }
-  }
-  return found;
-}
-
-std::vector<particle_group> dialect_reader::groups_of(const hdf5_file& file) {
-  std::vector<particle_group> all = matching(file, names_.groups), meant;
-  if (names_.meant == groups_meant::last) {
-    std::ranges::sort(all, {}, &particle_group::number);
-    if (told_.step) std::erase_if(all, [&](const particle_group& g) { return g.number() != *told_.step; });
-    if (all.empty()) throw error(file.path() + " has no step " + std::to_string(*told_.step));
-    all.erase(all.begin(), all.end() - 1);
-  }
-  for (particle_group& g : all) {
-    locate(g);
-    if (std::ranges::find(content.groups, g.label) == content.groups.end()) content.groups.push_back(g.label);
-  }
-  std::erase_if(all, [](const particle_group& g) { return g.rows == 0; });
-  const auto rule = boundary_rule::of(told_.boundary_kind);
-  const auto counts = attribute(file, "", names_.counts);
-  for (particle_group& g : all) {
-    const auto k = static_cast<std::size_t>(g.number());
-    if (counts && g.number() >= 0 && k < counts->size() && (*counts)[k] != static_cast<double>(g.rows))
-      throw error(file.path() + ": " + g.x[0].dataset + " has " + std::to_string(g.rows) +
-                  " rows, but the header counts " + number_text((*counts)[k]));
-    g.boundary = rule && rule->names_groups() && rule->takes(g.label);
-    if (names_.meant != groups_meant::all || rule || !g.kind.empty()) continue;
-    const kind_word kind = kind_named(g.label);
-    if (kind == kind_word::body)
-      throw error(file.path() + ": the group " + g.label +
-                  " is a body that moves, by its name, which pairsum does not sum; --boundary-kind name=" + g.label +
-                  " takes it for boundary, none all particles for fluid");
-    g.boundary = kind == kind_word::boundary;
-  }
-  if (names_.meant != groups_meant::first || (rule && rule->none())) return all;
-  const bool fluid = std::ranges::any_of(all, [](const particle_group& g) { return g.number() == 0; });
-  const auto others = std::ranges::count_if(all, [](const particle_group& g) { return !g.boundary; });
-  std::string left_out;
-  for (particle_group& g : all) {
-    if (g.boundary || g.number() == 0 || (!fluid && others == 1)) {
-      meant.push_back(g);
-    } else {
-      left_out += (left_out.empty() ? "" : ", ") + std::to_string(g.rows) + " of " + g.label;
-    }
-  }
-  if (meant.empty() && !all.empty())
-    throw error(file.path() + " has no fluid, which is PartType0, but " + left_out +
-                "; --boundary-kind PartType=N takes one as boundary");
-  if (!left_out.empty())
-    content.facts.push_back({"left out", left_out, origin::assumed,
-                             "PartType0 is the fluid; --boundary-kind PartType=N takes another as boundary"});
-  return meant;
-}
 
 void dialect_reader::box(const std::string& group) {
   auto &low = content.box_low, &high = content.box_high;
@@ -422,12 +225,12 @@ file_content read_here(const std::string& path, const hints& told) {
   if (parts && parts->front() > 1) {
     for (const std::string& part : siblings(path, parts->front())) {
       files.push_back(std::make_unique<hdf5_file>(part));
-      for (particle_group& g : reader.groups_of(*files.back())) groups.push_back(std::move(g));
+      for (particle_group& g : groups_of(*files.back(), names, told, reader.content)) groups.push_back(std::move(g));
       reader.content.parts.push_back(part);
     }
     reader.content.facts.push_back({"files of the snapshot", number_text(parts->front()), origin::read, "the header"});
   } else {
-    groups = reader.groups_of(*files[0]);
+    groups = groups_of(*files[0], names, told, reader.content);
   }
   if (groups.empty()) throw error(path + " has no particles");
   reader.header(groups);

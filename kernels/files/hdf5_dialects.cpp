@@ -101,7 +101,13 @@ double gamma_of(std::string_view function, int dim) {
 }
 
 kind_word kind_named(std::string_view group) {
-  std::string text = lower(group);
+  std::string text;
+  for (const char c : group) {  // WaterBody has two words
+    const bool begins = std::isupper(static_cast<unsigned char>(c)) != 0 && !text.empty() &&
+                        std::islower(static_cast<unsigned char>(text.back())) != 0;
+    text += begins ? std::string{' ', c} : std::string{c};
+  }
+  text = lower(text);
   std::ranges::replace_if(
       text, [](unsigned char c) { return !std::isalpha(c); }, ' ');
   std::vector<std::string_view> words = split(text, ' ');

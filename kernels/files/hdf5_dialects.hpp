@@ -51,8 +51,8 @@ double gamma_of(std::string_view function, int dim);
 /// What the name of a group of particles says of their kind.
 enum class kind_word { none, fluid, boundary, body };
 
-/// By the words of a name, between digits and signs; those for fluid come first: "fluid_box" is fluid, "wall_2"
-/// boundary, "rigid_body" a body that moves, "sandbox" none of them.
+/// By the words of a name, between digits, signs and capitals; those for fluid come first: "fluid_box" is fluid,
+/// "wall_2" and "TankWall" boundary, "rigid_body" a body that moves, "sandbox" none of them.
 kind_word kind_named(std::string_view group);
 
 }  // namespace pairsum::files

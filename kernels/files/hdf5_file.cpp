@@ -5,17 +5,17 @@
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/memory.hpp>
+#include <pairsum/particles/particle_table.hpp>
 
 namespace pairsum::files {
 namespace {
 
 constexpr hssize_t most_numbers = 64;
 constexpr std::size_t longest_text = 1 << 16;
-constexpr hsize_t rows_at_once = 1 << 16;          ///< that are read before they go to their columns
-constexpr hsize_t most_deflated = 1100;            ///< bytes that deflate may make of one; 1032 at most
-constexpr hsize_t most_rows = 0xffffffffu - 1024;  ///< as the library counts particles
-constexpr double bytes_per_row = 200;              ///< that reading takes, both processes together
-constexpr double most_idle_bytes = 1 << 26;        ///< of a chunk that rows do not fill
+constexpr hsize_t rows_at_once = 1 << 16;    ///< that are read before they go to their columns
+constexpr hsize_t most_deflated = 1100;      ///< bytes that deflate may make of one; 1032 at most
+constexpr double bytes_per_row = 200;        ///< that reading takes, both processes together
+constexpr double most_idle_bytes = 1 << 26;  ///< of a chunk that rows do not fill
 
 /// As HDF5 calls it; the root has a name of its own.
 const char* named(const std::string& object) { return object.empty() ? "/" : object.c_str(); }
@@ -132,8 +132,8 @@ hdf5_file::shape hdf5_file::shape_of(const std::string& dataset) const {
     fail(dataset, "has " + std::to_string(rank) + " dimensions, should have 1 (N) or 2 (N x 1 to 3)");
   const hsize_t columns = rank == 2 ? extent[1] : 1;
   if (columns < 1 || columns > 3) fail(dataset, "has " + std::to_string(columns) + " columns, should have 1, 2 or 3");
-  if (extent[0] > most_rows)
-    fail(dataset, "has " + std::to_string(extent[0]) + " rows, more than the " + std::to_string(most_rows) +
+  if (extent[0] > most_particles)
+    fail(dataset, "has " + std::to_string(extent[0]) + " rows, more than the " + std::to_string(most_particles) +
                       " particles that pairsum counts");
   if (H5Pget_layout(made) == H5D_VIRTUAL || H5Pget_external_count(made) > 0)
     fail(dataset, "keeps its rows in other files; give those");

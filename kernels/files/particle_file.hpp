@@ -31,6 +31,7 @@ struct hints {
   std::optional<double> H, h, rho0, mass, B;  ///< m, m, kg/m3, kg, Pa
   std::optional<double> support;              ///< H / h; none: what the dialect says, else 2
   std::optional<double> h_quantile;           ///< of a varying h; none: the largest
+  std::optional<double> H_in_spacings;        ///< where nothing says H, so many spacings; none: that is an error
   std::optional<int> dim;                     ///< none: as found
   std::optional<std::int64_t> step;           ///< of a file with several; none: the last
   std::string boundary_kind;  ///< "Type=0,1": rows whose column has one of these values; "none"; "": the format's

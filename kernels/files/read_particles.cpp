@@ -19,8 +19,6 @@
 namespace pairsum::files {
 namespace {
 
-constexpr std::size_t most_particles = 0xffffffffu - 1024;
-
 /// Takes ":fluid" or ":boundary" off a path, unless a file is named so.
 std::optional<particle_kind> kind_of_path(std::string& path) {
   constexpr std::array<std::pair<std::string_view, particle_kind>, 2> endings{

@@ -88,6 +88,9 @@ void choose_H(set_in_making& s) {
       add_header(s, f, all);
   if (all.H.empty())
     for (const one_file& f : s.files) add_header(s, f, all);
+  if (all.H.empty() && told.H_in_spacings && !told.support && !told.h_quantile)
+    return take(*told.H_in_spacings * s.made.dx, origin::assumed,
+                number_text(*told.H_in_spacings) + " spacings; nothing says it, --H does");
   if (all.H.empty())
     throw error(s.named() +
                 ": nothing says the support radius; --H does, in m, or --h with --support; the spacing is " +

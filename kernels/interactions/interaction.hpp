@@ -13,6 +13,7 @@ namespace pairsum {
 struct physics {
   double H = 0;  ///< support radius, m
   tait eos;
+  double dx = 0;  ///< spacing of the particles, m, where it is known; else 0
 };
 
 /// One particle's state as an interaction's `derive` sees it.

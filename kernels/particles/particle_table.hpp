@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -6,6 +7,9 @@
 #include <pairsum/particles/particle_set.hpp>
 
 namespace pairsum {
+
+/// More cannot be numbered with 32 bits, some of which mean something else.
+inline constexpr std::size_t most_particles = 0xffffffffu - 1024;
 
 /// Particles of any dimension in double precision: what cases make, files hold and references read. Rows are in id
 /// order: the particle with id k is row k, fluid first, then boundary. Units as in particle_set.

@@ -87,7 +87,7 @@ void check_input(const particle_table& p, const setup& s) {
     throw error("the particles are " + std::to_string(p.dim) + "D, the summation is " + std::to_string(s.dim) + "D");
   check_columns(p);
   check_domain(s);
-  if (p.size() >= (std::size_t{1} << 32) - 1024) throw error("at most 2^32 - 1025 particles can be summed");
+  if (p.size() > most_particles) throw error("at most 2^32 - 1025 particles can be summed");
   const bool single = s.precision != precision_name<double>();  // what a pair's terms are made of must fit
   const bool single_position = s.precision == precision_name<float>();
   std::size_t outside = 0;

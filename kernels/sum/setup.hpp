@@ -24,7 +24,7 @@ struct setup {
   std::size_t cores = 0;  ///< that a process may use, however many it takes, for `auto` blocks; 0: as the machine says
   std::vector<double> omega_low, omega_high;  ///< m, `dim` values each
   axes periodic = {};  ///< what leaves through their faces comes back at the opposite one, and pairs reach through them
-  physics constants;   ///< H and the equation of state
+  physics constants;   ///< H, the equation of state, the spacing
 };
 
 }  // namespace pairsum

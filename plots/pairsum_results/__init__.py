@@ -12,6 +12,7 @@ try:
     from .answers import Answer, answer  # noqa: F401
     from .compare import (algorithm_speedup, compared, compiler_comparison, m_comparison,  # noqa: F401
                           runtime_comparison, speedup)
+    from .densities import density  # noqa: F401
     from .ladders import ladder, shifts, standings, strategies  # noqa: F401
     from .load import COMMON, EVALUATION, PLACE, POINT, TIMES, Results, load  # noqa: F401
     from .model import models, shares, thread_times  # noqa: F401

@@ -23,9 +23,11 @@ def calls(text):
 
 
 def whole_help(pairsum, command):
-    """The help of a command, and of those that it sends its reader to."""
+    """The help of a command, and what that of others which it sends its reader to says of particle files."""
     text = pairsum(command, "--help").stdout
-    return text + "".join(pairsum(other, "--help").stdout for other in re.findall(r"pairsum (\w+) --help", text))
+    for other in re.findall(r"pairsum (\w+) --help", text):
+        text += re.sub(r"^ *(-h,)?--(help|json)\b.*$", "", pairsum(other, "--help").stdout, flags=re.MULTILINE)
+    return text
 
 
 def unknown_options(pairsum, text):
@@ -43,6 +45,7 @@ def test_options_exist(pairsum, document):
 def test_an_option_that_is_not_there_is_found(pairsum):
     assert list(unknown_options(pairsum, "```\nx/pairsum run talk --bugdet 3 \\\n  --no-such 1\n```\n")) == [
         "run --bugdet", "run --no-such"]
+    assert list(unknown_options(pairsum, "```\npairsum run --rho0 1000 --json\n```\n")) == ["run --json"]
 
 
 def test_every_plan_is_described():

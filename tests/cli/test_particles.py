@@ -134,3 +134,31 @@ def test_a_file_that_changes_is_noticed(pairsum, file, tmp_path):
 ])
 def test_refusals(pairsum, file, words, says):
     assert refused(pairsum("run", *[file if w == "FILE" else w for w in words], *SMALL), *says)
+
+
+@pytest.mark.parametrize("words", [["run", "--rounds", "1", "--steps", "1", "--out", "rows.jsonl"],
+                                   ["verify", "--interaction", "count", "--isa", "scalar", "--grid", "compact_grid"]],
+                         ids=["run", "verify"])
+def test_all_backends_leave_out_those_whose_skin_a_narrow_box_has_no_room_for(pairsum, words):
+    words = [*words, "--case", "periodic_lattice", "--dim", "3", "--dx", "0.1", "--threads", "1"]
+    if words[0] == "run":
+        words += ["--grid", "compact_grid"]
+    done = pairsum(*words, "--backend", "all", "--H", "0.32")
+    assert done.returncode == 0, done.stderr
+    assert "left out: verlet_list, verlet_list_tbb; the periodic box has no three cells of H and their skin" in done.stdout
+    wide = pairsum(*words, "--backend", "all", "--H", "0.3", *(["--dry-run"] if words[0] == "run" else []))
+    assert wide.returncode == 0 and "left out: verlet" not in wide.stdout
+    assert refused(pairsum(*words, "--backend", "naive,verlet_list", "--H", "0.32"), "skin")
+
+
+@pytest.mark.parametrize("program, words", [
+    ("pairsum", ["run", "--rounds", "1", "--steps", "1", "--out", "rows.jsonl", "--isa", "best", "--backend", "all"]),
+    ("pairsum", ["run", "--dry-run", "--backend", "all"]),
+    ("pairsum", ["tune", "--budget", "2", "--isa", "scalar"]),
+    ("pairsum_bench", ["--benchmark_filter=symmetric_omp", "--benchmark_min_time=0.001"])],
+    ids=["run", "dry run", "tune", "bench"])
+def test_what_takes_all_backends_takes_them_in_a_narrow_box(pairsum, program, words):
+    done = pairsum(*words, "--case", "periodic_lattice", "--dx", "0.1", "--threads", "1", "--grid", "compact_grid", "--H", "0.32",
+                   program=program)
+    assert done.returncode == 0, done.stderr
+    assert "verlet_list " not in done.stdout.replace("left out: verlet_list", "")

@@ -43,8 +43,8 @@ def test_a_dry_run_says_what_is_made_before_and_that_more_pairs_take_longer(pair
     words = ["run", "--dx", "0.06", "--backend", "naive", "--M", "7", "--steps", "4000", "--dry-run"]
     monkeypatch.setenv("PAIRSUM_CACHE", str(tmp_path / "kept"))
     evolved = pairsum(*words, "--state", "rest,evolved:0.5")
-    assert f"evolved:0.5 is stepped to before, which takes minutes, unless it is kept in {tmp_path}/kept\n" in evolved.stdout
-    assert "stepped to before" not in pairsum(*words).stdout
+    assert f"made before, which takes minutes, unless kept in {tmp_path}/kept: evolved:0.5\n" in evolved.stdout
+    assert "made before" not in pairsum(*words).stdout
     takes = [re.search(r"a round takes about (\d+) (s|min)", pairsum(*words, "--H", H).stdout) for H in ("0.12", "0.24")]
     seconds = [float(found[1]) * (60 if found[2] == "min" else 1) for found in takes]
     assert seconds[1] > 3 * seconds[0]

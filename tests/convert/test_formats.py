@@ -3,6 +3,8 @@ import numpy as np
 import pytest
 from conftest import h5py
 
+from pairsum_results.particles.kinds import BOUNDARY, FLUID, named_kind
+
 DUMP = """ITEM: UNITS
 si
 ITEM: TIME
@@ -191,6 +193,14 @@ def test_groups_of_h5md_are_kinds(tmp_path, converted):
     assert header["BoxSize"].tolist() == [5, 6, 0] and header["Periodic"].tolist() == [1, 0, 0] and header["Time"] == 1
     assert "frame 2 of 0 to 2" in said and header["Dimension"] == 2
     assert converted("--frame", 0, "--boundary-kind", "name=fluid", path)[1]["PartType0/Kind"][:].tolist() == [1, 1, 0, 0]
+
+
+@pytest.mark.parametrize("name, kind", [
+    ("wall_2", BOUNDARY), ("Tank Walls", BOUNDARY), ("boundaries", BOUNDARY), ("fluid_box", FLUID), ("WATER", FLUID),
+    ("TankWall", BOUNDARY), ("WaterBody", FLUID), ("rigid_body", "body"), ("sandbox", None), ("firewall", None),
+    ("seabed2", None), ("particles", None), ("", None)])
+def test_kinds_by_name_are_by_whole_words(name, kind):
+    assert named_kind(name) == kind
 
 
 def test_groups_with_different_boxes_are_refused(tmp_path, refused):

@@ -28,7 +28,7 @@ struct run_of {
     s.backend = backend;
     s.interaction = interaction;
     s.grid = "compact_grid";
-    return simulate_registry(0).make_summation(s);
+    return simulate_registry().make_summation(s);
   }
   moment go_to(double t) {
     while (steps.t() < t) steps.step(t);
@@ -42,6 +42,25 @@ bool same(const moment& a, const moment& b) {
   const particle_table &p = a.particles, &q = b.particles;
   return p.x == q.x && p.v == q.v && p.rho == q.rho && p.m == q.m && p.kind == q.kind && a.ids == b.ids && a.t == b.t &&
          a.step == b.step && a.next_dt == b.next_dt && a.lost == b.lost;
+}
+
+TEST(ferrari09_hard, pushes_within_a_spacing_where_that_is_known) {
+  initial_condition c = dam(2, 0.05);  // the fluid begins a spacing away from its walls
+  c.H = 0.15;
+  const auto rates = [&](const std::string& interaction, double dx) {
+    setup s = setup_of(c);
+    s.backend = "naive";
+    s.interaction = interaction;
+    s.grid = "compact_grid";
+    s.constants.dx = dx;
+    const auto sum = simulate_registry().make_summation(s);
+    const workers serial(runtime::serial, 1);
+    sum->load(c.particles, {}, serial.get());
+    sum->evaluate(serial.get());
+    return sum->rates().columns;
+  };
+  EXPECT_EQ(rates("ferrari09_hard", 0.049), rates("ferrari09", 0));
+  EXPECT_NE(rates("ferrari09_hard", 0), rates("ferrari09", 0)) << "H/2 reaches the fluid";
 }
 
 TEST(simulation, goes_on_with_the_same_bits) {

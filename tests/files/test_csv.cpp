@@ -68,6 +68,15 @@ TEST(csv, what_part_vtk_writes) {
   EXPECT_TRUE(c.facts.empty());
 }
 
+TEST(csv, the_kind_by_pairsum_s_own_column) {
+  using enum particle_kind;
+  EXPECT_EQ(read_bytes("kind.csv", "x,y,Type,Kind\n1,2,3,1\n2,2,3,0\n").kind, (std::vector{boundary, fluid}));
+  hints told;
+  told.boundary_kind = "Type=0";
+  EXPECT_TRUE(read_bytes("kind.csv", "x,y,Type,Kind\n1,2,3,1\n", told).kind.empty());
+  EXPECT_TRUE(read_bytes("lower.csv", "x,y,kind\n1,2,1\n").kind.empty());
+}
+
 TEST(csv, the_kind_by_another_column_or_by_none) {
   hints told;
   told.boundary_kind = "Mk=10,11";
@@ -198,6 +207,9 @@ INSTANTIATE_TEST_SUITE_P(
         bad_csv{"floating", "x,y,Type\n1,2,3\n1,2,2\n",
                 ": line 3: \"Type\" is 2, a floating body, which pairsum does not sum; --boundary-kind none takes all "
                 "particles for fluid"},
+        bad_csv{"kind_of_neither", "x,y,Kind\n1,2,2\n",
+                ": line 2: \"Kind\" is 2, should be 0 (fluid) or 1 (boundary); for other numbers say --boundary-kind "
+                "\"Kind=2\", or none"},
         bad_csv{"another_kind", "x,y,Type\n1,2,4\n",
                 ": line 2: \"Type\" is 4, should be 0 or 1 (wall) or 3 (fluid); for other numbers say --boundary-kind "
                 "\"NAME=0,1\", or none"},

@@ -43,6 +43,12 @@ TEST(one_line, shows_what_would_steer_a_terminal) {
             "\\x9b31m \\xff \\xc3")
       << "no UTF-8";
   EXPECT_EQ(one_line(std::string("a\0b", 3)), "a\\x00b");
+  EXPECT_EQ(one_line("\u202Evsc.a \uFEFF\u2028\u061C"), "\\xe2\\x80\\xaevsc.a \\xef\\xbb\\xbf\\xe2\\x80\\xa8\\xd8\\x9c")
+      << "what turns the direction of writing";
+  for (const char* const text : {"\u00AD", "\u200B", "\u200F", "\u2029", "\u2066", "\u2069", "\U000E0041",
+                                 "\xF0\x82\x80\xAE", "\xE0\x80\x8A", "\xF5\x80\x80\x80"})
+    EXPECT_TRUE(one_line(text).starts_with("\\x")) << one_line(text);
+  EXPECT_EQ(one_line("\u200D\u0627\u200C"), "\u200D\u0627\u200C") << "joiners of letters";
 }
 
 TEST(one_line, cuts_long_words_and_the_whole) {

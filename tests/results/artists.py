@@ -59,6 +59,7 @@ def density(radii=PAIRS):
     for state, slower in (("rest", 1.0), ("perturbed", 1.25)):
         for k, (radius, pairs) in enumerate(radii.items()):
             for name, ns, isa in (("naive_omp", 10, "scalar"), ("symmetric_omp", 5, "scalar"), ("copies_omp", 6, "scalar"),
+                                  ("naive", 11, "scalar"), ("sphysics_sweep", 7, "scalar"),
                                   ("again_naive_omp", 1, "scalar"), ("naive_tiles_omp", 2, "avx512"),
                                   ("tiles_omp", 2 / (1.5, 1.2, 1.0)[k], "avx512")):
                 place = made.point(name, None, 1, state=state, H=radius * 0.00594, n_fluid=1000, n_boundary=900,

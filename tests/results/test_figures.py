@@ -198,13 +198,41 @@ def test_sizes_and_granularities_are_lines(full):
 
 def test_costs_per_pair_and_what_symmetry_is_worth_are_lines_over_pairs_per_particle(dense):
     cost = artists.lines(first(density.DENSITY, dense, "perturbed"))
-    assert set(cost) == {"gather, scalar", "colours, scalar", "copies, scalar", "gather, vector", "colours, vector"}
+    assert set(cost) == {"gather, scalar", "colours, scalar", "copies, scalar", "serial, scalar", "gather, vector",
+                         "colours, vector"}
     ns = 1.5 * made.MEDIAN * 1.25  # of an evaluation; the state is that much slower
     assert cost["gather, scalar"] == [(x, pytest.approx(10 * ns)) for x in (14, 54, 140)]
     assert [y for _, y in cost["colours, vector"]] == pytest.approx([2 * ns / gain for gain in (1.5, 1.2, 1.0)])
     worth = artists.lines(first(density.DENSITY, dense, "symmetric against gather"))
     assert [y for _, y in worth["rest, vector"]] == pytest.approx([1.5, 1.2, 1.0])
     assert [y for _, y in worth["rest, scalar"]] == pytest.approx([2.0] * 3) and "equal" in worth
+
+
+def test_a_gather_is_one_whatever_runs_it(tmp_path):
+    """A serial backend that computes each pair twice never stands for those that compute it once."""
+    points = [row for row in artists.density() if row["kind"] != "sample" or row["point"]["backend"] in ("naive", "naive_omp")]
+    for row in points:
+        if row["kind"] == "round":
+            row["rows"] = sum(one["kind"] == "sample" and one["round"] == row["round"] for one in points)
+    found = artists.report(tmp_path, points).density
+    assert set(found["family"]) == {"gather"} and not found["fastest_symmetric"].any()
+
+
+def test_builds_are_problems_of_their_own(tmp_path):
+    rows = artists.density()
+    other = [{**row, "environment": artists.OTHER} if "environment" in row and row["kind"] != "round" else row for row in rows]
+    taken = {}
+    for row in rows:
+        taken.setdefault(row.get("round"), []).append(row)
+    both = [made.environment(), made.environment(artists.OTHER, compiler="Clang 14.0.6"),
+            *(row for row in rows + other if row["kind"] == "backend")]
+    for k in range(1, 7):
+        samples = [row for row in rows + other if row["kind"] == "sample" and row["round"] == k]
+        both += samples + [made.closing(k, len(samples))]
+    found = artists.report(tmp_path, both).density
+    assert found.groupby("world")["problem"].nunique().eq(1).all() and found["problem"].nunique() == 4
+    panels = density.DENSITY.panels(artists.report(tmp_path / "again", both))
+    assert len({panel.title for panel in panels}) == len(panels) == 5
 
 
 def test_two_densities_are_no_line(tmp_path):

@@ -123,6 +123,60 @@ def vector_gain():
     return table(head, [[asked[k][0], *cells[k * len(worlds):(k + 1) * len(worlds)]] for k in range(len(asked))])
 
 
+STATES = ["rest", "perturbed", "evolved:0.5"]
+
+
+@functools.lru_cache
+def densities():
+    """The table density of the study, with `radius`: H in spacings, as the study has it."""
+    results, _ = rows("density")
+    found = pr.density(results)
+    points = results.points.loc[found["point"], ["H", "dx", "state", "precision"]].set_index(found.index)
+    return results, found.assign(radius=(points["H"] / points["dx"]).round(2), state=points["state"],
+                                 precision=points["precision"])
+
+
+def density_fastest():
+    """Double precision, 1 thread: the fastest of all backends at every number of pairs, lattice first."""
+    results, found = densities()
+    found = found[(found["precision"] == "double") & (found["threads"] == 1)]
+    lines = []
+    for (state, radius), some in sorted(found.groupby(["state", "radius"]), key=lambda item: (STATES.index(item[0][0]), item[0][1])):
+        best = some.loc[some["time_s"].idxmin()]
+        alike = results.points[(results.points["series"] == best["series"]) & (results.points["threads"] == 1)].index
+        others = [p for p in alike if p != best["point"]]
+        against = pr.compared(results, [best["point"]] * len(others), others, EVALUATION)
+        ties = against[against["verdict"] == "not resolved"].sort_values("time_s")
+        lines.append([state, f"{radius:g}", f"{best['pairs_per_particle']:.0f}", f"`{best['backend']}`",
+                      f"{best['ns_per_pair']:.1f}", pr.compare.first_few([f"`{name}`" for name in ties["backend"]], 3)])
+    return table(["state", "H / dx", "pairs", "fastest", "ns per pair", "not resolved from it"], lines)
+
+
+def density_worth():
+    """The fastest gather over the fastest backend that computes each pair once, double precision, 1 thread."""
+    _, found = densities()
+    found = found[(found["precision"] == "double") & (found["threads"] == 1) & found["fastest_symmetric"]]
+    radii = sorted(found["radius"].unique())
+    cells = {key: interval(line) for key, line in found.set_index(["state", "units", "radius"]).iterrows()}
+    return table(["state", "units", *(f"H = {radius:g} dx" for radius in radii)],
+                 [[state, units, *(cells[state, units, radius] for radius in radii)]
+                  for units in ("scalar", "vector") for state in STATES])
+
+
+def density_precisions():
+    """After the flow: ns per pair of the fastest backend."""
+    _, found = densities()
+    found = found[found["state"].str.startswith("evolved")]
+    best = found.loc[found.groupby(["precision", "units", "threads", "radius"])["time_s"].idxmin()]
+    radii = sorted(best["radius"].unique())
+    cells = {key: f"{line['ns_per_pair']:.2f} `{line['backend']}`" for key, line in
+             best.set_index(["precision", "units", "threads", "radius"]).iterrows()}
+    return table(["precision", "units", "threads", *(f"H = {radius:g} dx" for radius in radii)],
+                 [[precision, units, threads, *(cells[precision, units, threads, radius] for radius in radii)]
+                  for precision in ("double", "mixed", "float") for units in ("scalar", "vector") for threads in (1, 2)
+                  if (precision, units, threads, radii[0]) in cells])
+
+
 def full_size():
     """Study `vector`: sums at full size, M = 9."""
     results, _ = rows("vector")
@@ -216,6 +270,7 @@ TABLES = {
     "take": what_to_take, "take_vector": what_to_take_on_vector_units,
     "field": lambda: ladders("field", "most_threads"), "field_serial": lambda: ladders("field", "one_thread", "over_serial"),
     "lanes": lambda: ladders("lanes", "most_threads"), "vector_gain": vector_gain, "full_size": full_size,
+    "density_fastest": density_fastest, "density_worth": density_worth, "density_precisions": density_precisions,
     "sets_and_blocks": instruction_sets_and_blocks, "talk_now": lambda: talk("fa9ddd4"), "talk_now_claims": lambda: talk_claims("fa9ddd4"), "talk_fastest": talk_fastest,
     "talk": lambda: talk("8a2a02c"), "talk_claims": lambda: talk_claims("8a2a02c"), "hash_sizes": hash_sizes,
     "self_test": self_test,

@@ -32,7 +32,8 @@ from .style import PAPER, Look, applied  # noqa: F401
 
 ALL: list[Drawing] = [
     ladder.LADDER, cases.CASES, threads.SPEEDUP, threads.ALGORITHM_SPEEDUP, over.M_COMPARISON, bars.PHASE_SPLIT,
-    bars.BARRIER_WAIT, roofline.ROOFLINE, over.SIZE_SCALING, density.DENSITY, over.GRANULARITY, ratios.COMPILERS, ratios.SELF_TEST]
+    bars.BARRIER_WAIT, roofline.ROOFLINE, over.SIZE_SCALING, density.DENSITY, over.GRANULARITY, ratios.COMPILERS,
+    ratios.SELF_TEST]
 _DPI, _PIXELS = 130, (1600, 1200)  # a PNG is to fit a slide
 
 

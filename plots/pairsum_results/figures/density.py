@@ -1,4 +1,6 @@
 """What an evaluation costs per pair, and what computing each pair once is worth, over pairs per particle."""
+import itertools
+
 import pandas as pd
 from matplotlib.axes import Axes
 
@@ -23,9 +25,11 @@ def _line(axes: Axes, line: pd.DataFrame, value: str, low: str, high: str, name:
 
 
 def _pairs_axis(axes: Axes, table: pd.DataFrame) -> None:
-    pairs = sorted(set(table["pairs_per_particle"].round()))
-    log(axes, "x", pairs)
-    at(axes.xaxis, [p for k, p in enumerate(pairs) if k == 0 or p > 1.15 * pairs[k - 1]])
+    ticks: list[float] = []
+    for pairs in sorted(set(table["pairs_per_particle"].round())):
+        ticks += [pairs] if not ticks or pairs > 1.15 * ticks[-1] else []
+    log(axes, "x", table["pairs_per_particle"])
+    at(axes.xaxis, ticks)
     axes.set_xlabel("interacting pairs per fluid particle")
 
 
@@ -33,10 +37,10 @@ def _panels(report: Report) -> list[Panel]:
     table = report.density
     panels = [Panel(f"{world}, {words.threads_words(threads)}", lambda axes, own=own: _cost(axes, own),
                     room(own.groupby(["units", "family"]).ngroups))
-              for (world, threads), own in table.groupby(["world", "threads"], sort=False)]
+              for (_, world, threads), own in table.groupby(["problem", "world", "threads"], sort=False)]
     symmetric = table[table["fastest_symmetric"]]
     return panels + [Panel(f"symmetric against gather, {words.threads_words(threads)}",
-                           lambda axes, own=own: _worth(axes, own), room(own.groupby(["units", "world"]).ngroups + 1))
+                           lambda axes, own=own: _worth(axes, own), room(own.groupby(["units", "problem"]).ngroups + 1))
                      for threads, own in symmetric.groupby("threads")]
 
 
@@ -53,13 +57,13 @@ def _cost(axes: Axes, own: pd.DataFrame) -> None:
 
 
 def _worth(axes: Axes, own: pd.DataFrame) -> None:
-    labels, colours = [], dict(zip(own["world"].unique(), [*style.BACKENDS.values()][6:] * 2))
-    for (world, units), line in own.groupby(["world", "units"], sort=False):
-        labels.append(_line(axes, line, "ratio", "low", "high", f"{world}, {units}", colours[world], _LINES[units]))
+    labels, colours = [], dict(zip(own["problem"].unique(), itertools.cycle(style.SPARE)))
+    for (problem, world, units), line in own.groupby(["problem", "world", "units"], sort=False):
+        labels.append(_line(axes, line, "ratio", "low", "high", f"{world}, {units}", colours[problem], _LINES[units]))
     _pairs_axis(axes, own)
     reference(axes, y=1.0, label="equal")
     axes.set(ylabel="time of gather / symmetric",
-             ylim=(min(0.9, 0.95 * own["ratio"].min()), 1.08 * own[["ratio", "high"]].max().max()))
+             ylim=(min(0.9, 0.95 * own[["ratio", "low"]].min().min()), 1.08 * own[["ratio", "high"]].max().max()))
     ends(axes, labels)
 
 

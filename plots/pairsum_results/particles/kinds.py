@@ -1,4 +1,5 @@
 """Which particles of a source are fluid and which are boundary."""
+import re
 import typing
 
 import numpy as np
@@ -8,14 +9,21 @@ from .quantities import column, plain
 from .source import Source
 
 FLUID, BOUNDARY = 0, 1
-#: What names of groups, types and species hold, in small letters.
-_BOUNDARY_WORDS = ("boundary", "wall", "solid", "obstacle", "tank", "container", "floor", "bed", "gate", "box")
-_FLUID_WORDS = ("fluid", "water", "liquid")
+#: Words in names of groups, types and species, without the s of a plural: those that pairsum's own reader knows, too.
+_BOUNDARY_WORDS = {"boundary", "boundarie", "wall", "solid", "obstacle", "tank", "container", "floor", "bed", "gate",
+                   "box"}
+_FLUID_WORDS = {"fluid", "water", "liquid", "gas", "oil", "air"}
+_BODY_WORDS = {"body", "bodie", "rigid", "floating"}
 _NAMED = ("kind", "type", "types", "species", "resname", "name")
 
 
-def _has(word: str, some: tuple[str, ...]) -> bool:
-    return any(one in plain(word) for one in some)
+def named_kind(name: str) -> int | str | None:
+    """FLUID, BOUNDARY or "body" (which moves) by the words of a name, between digits, signs and capitals; those for
+    fluid come first. None: none of them."""
+    words = {word.lower() for word in re.findall("[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)}
+    words = {word.removesuffix("s") if len(word) > 3 else word for word in words}
+    kinds_of = ((_FLUID_WORDS, FLUID), (_BOUNDARY_WORDS, BOUNDARY), (_BODY_WORDS, "body"))
+    return next((kind for some, kind in kinds_of if words & some), None)
 
 
 class Kinds(typing.NamedTuple):
@@ -46,15 +54,18 @@ def kinds(source: Source, rows: int, rule: str) -> Kinds:
             values = np.full(rows, source.group) if parsed[0] == "name" and source.group else column(source, parsed[0])
         is_boundary = np.zeros(rows, bool) if values is None else np.isin(_texts(values), list(parsed[1]))
         return Kinds(is_boundary.astype(np.uint8), "given", f"--boundary-kind {rule}", parsed[0] if parsed else "")
-    if _has(source.group, _BOUNDARY_WORDS + _FLUID_WORDS):
-        of_group = np.full(rows, _has(source.group, _BOUNDARY_WORDS), np.uint8)
-        return Kinds(of_group, "read", f"the group's name {source.group}")
+    if (kind := named_kind(source.group)) == "body":
+        raise ResultsError(f"{source.path}: the group {source.group} is a body that moves, by its name, which pairsum "
+                           f"does not sum; --boundary-kind name={source.group} takes it for boundary, none all "
+                           "particles for fluid")
+    if kind is not None:
+        return Kinds(np.full(rows, kind, np.uint8), "read", f"the group's name {source.group}")
     for name, values in sorted(source.columns.items(), key=lambda item: plain(item[0]) != "kind"):
         if plain(name) not in _NAMED or values.shape not in ((rows,), (rows, 1)):
             continue
         there = np.unique(values)
-        if values.dtype.kind in "OUS" and all(_has(str(word), _BOUNDARY_WORDS + _FLUID_WORDS) for word in there):
-            walls = [word for word in there if _has(str(word), _BOUNDARY_WORDS)]
+        if values.dtype.kind in "OUS" and all(named_kind(str(word)) in (FLUID, BOUNDARY) for word in there):
+            walls = [word for word in there if named_kind(str(word)) == BOUNDARY]
             return Kinds(np.isin(values.reshape(-1), walls).astype(np.uint8), "read", name, name)
         if plain(name) == "kind" and set(there) <= {FLUID, BOUNDARY}:
             return Kinds(values.reshape(-1).astype(np.uint8), "read", f"{name}: 0 fluid, 1 boundary", name)
