@@ -81,7 +81,7 @@ words_given parse(int argc, char** argv) {
   levels["backend"] = fmt::format("{}", fmt::join(available_backends(), ","));
   r.levels = levels_of(levels, "", given_of(app));
   fmt::print(stderr, "{}", take_particles(r.levels));
-  fmt::print(stderr, "{}", leave_out_wide_skins(r.levels, registry::instance()));
+  fmt::print(stderr, "{}", leave_out_wide_skins(r.levels, pairsum::registry::instance()));
   check_request(r.levels);
   check_cores(r.levels.threads, oversubscribe);
   return w;
