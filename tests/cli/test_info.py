@@ -58,14 +58,15 @@ def test_the_text_says_what_was_assumed(pairsum, tank):
 def test_without_a_support_radius_two_spacings_are_assumed(pairsum, tmp_path):
     (tmp_path / "lattice.csv").write_text("x,y,z\n" + "".join(f"{x},{y},{z}\n" for x in range(4) for y in range(4)
                                                                for z in range(4)))
-    done = pairsum("info", "lattice.csv", "--mass", "1000", "--rho0", "1000", "--json")
+    words = ["lattice.csv", "--mass", "1000", "--rho0", "1000"]
+    done = pairsum("info", *words, "--json")
     assert done.returncode == 0, done.stderr
     got = json.loads(done.stdout)
     assert {"what": "H", "value": "2", "how": "assumed", "from": "2 spacings; nothing says it, --H does"} in got["facts"]
     assert got["H"] == 2 and got["pairs"] == json.loads(
-        pairsum("info", "lattice.csv", "--H", "2", "--mass", "1000", "--rho0", "1000", "--json").stdout)["pairs"]
-    refused(pairsum("run", "--particles", "lattice.csv"), "nothing says the support radius; --H does")
-    refused(pairsum("info", "lattice.csv", "--support", "3"), "nothing says the support radius; --H does")
+        pairsum("info", *words, "--H", "2", "--json").stdout)["pairs"]
+    for command in (["run", "--particles"], ["info", "--support", "3"]):
+        refused(pairsum(*command, *words), "nothing says the support radius; --H does")
 
 
 def test_what_is_wrong_is_one_line(pairsum, tank, tmp_path):
