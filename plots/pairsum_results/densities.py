@@ -56,7 +56,6 @@ def _worlds(results: Results, table: pd.DataFrame) -> pd.Series:
     """Every problem in a few words: its state, and what else differs between them."""
     first = table.drop_duplicates("problem").set_index("problem")["series"]
     series = results.series.loc[first].set_axis(first.index)
-    alike = ("H", "n_fluid", "n_boundary")
     told = ["state", *(name for name in ("study", "build_name", *COMMON)
-                       if name != "state" and name not in alike and series[name].nunique() > 1)]
+                       if name not in ("state", *_APART) and series[name].nunique() > 1)]
     return pd.Series(map(", ".join, series[told].astype(str).to_numpy()), series.index, dtype=object)
