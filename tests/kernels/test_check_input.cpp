@@ -128,8 +128,7 @@ TEST_F(check_input_test, the_world_must_be_usable) {
   expect_refusal({"3D", "2D"});
   s.world.omega_high = s.world.omega_low = {0, 0};
   s.world.periodic.on[2] = true;
-  EXPECT_TRUE(says(error_of([&] { (void)registry::instance().make_summation(s.world); }),
-                   {"a 2D domain has no axis z that could be periodic"}));
+  EXPECT_TRUE(says(error_of([&] { check_domain(s.world); }), {"a 2D domain has no axis z that could be periodic"}));
 }
 
 TEST_F(check_input_test, drop_outside_keeps_the_others_in_order) {
