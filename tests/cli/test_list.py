@@ -38,7 +38,7 @@ def test_everything_is_on_one_screen(pairsum, listed):
         assert line[2].startswith(words[0]), line[0]
         assert kind == "plans" or all(re.search(rf"\b{re.escape(word)}\b", done.stdout) for word in words)
     assert f"\ninteractions {len(listed['interactions']):>3}  " in done.stdout
-    plans = re.search(r"^plans +10  (.*\n +.*)$", done.stdout, re.M)[1]
+    plans = re.search(rf"^plans +{len(listed['plans'])}  (.*\n +.*)$", done.stdout, re.M)[1]
     assert re.findall(r"\w+", plans.split("(")[0]) == [p["name"] for p in listed["plans"]] and "compilers*" in plans
     assert "pairsum list backends NAME" in done.stdout
 
