@@ -105,9 +105,8 @@ std::string expected(double pairs_per_particle) {
   constexpr double few = 3;
   return pairs_per_particle < few
              ? "expect verlet_list in front, which keeps a list of few pairs; pairsum tune measures it"
-             : "expect tiles_tbb, tiles_omp, sliced_2colour_tbb, sliced_locks, task_conflicts on vector units in "
-               "front; "
-               "pairsum tune measures it";
+             : "expect tiles_tbb, tiles_omp, sliced_2colour_tbb, sliced_locks, task_conflicts on vector units "
+               "in front; pairsum tune measures it";
 }
 
 std::string info_text(const particles_of_request& set, const pair_counts& counts) {

@@ -299,3 +299,20 @@ def test_every_table_is_known():
                                     lambda text: text.replace("<!-- table take -->", "")])
 def test_another_number_is_found(change):
     assert "take" in wrong(change(DOCUMENT.read_text()))
+
+
+def test_what_info_tells_to_expect_is_what_was_found():
+    """Where pairs are few, and on vector units and 2 threads the five that are fastest on the whole."""
+    said = re.sub(r'"\s+"', "", (ROOT / "harness/cli/info_command.cpp").read_text())
+    few = re.search(r'"expect (\w+) in front, which keeps', said)[1]
+    many = re.search(r'"expect ([\w, ]+) on vector units in front', said)[1]
+    field, ladder = rows("field")
+    pairs = (field.points["pairs_interacting"] / field.points["n_fluid"]).where(field.points["dim"] == 3)
+    sparse = ladder[(pairs.loc[ladder["point"]] < 3).to_numpy() & (ladder["rank"] == 1)]
+    assert set(sparse["backend"]) == {few}
+    results, _ = rows("density")
+    points = results.points.assign(time=results.typical(EVALUATION)).query(
+        "threads == 2 and precision == 'double' and isa != 'scalar'")
+    over_best = points["time"] / points.groupby("H")["time"].transform("min")
+    means = over_best.groupby(points["backend"]).mean().sort_values()
+    assert set(many.split(", ")) == set(means.index[:5])
