@@ -8,6 +8,7 @@ build_packages=(g++ cmake make ninja-build pkg-config git libbenchmark-dev libtb
 plots_packages=(python3-pandas python3-scipy python3-matplotlib python3-jinja2)
 tests_packages=(libgtest-dev librapidcheck-dev valgrind python3-jsonschema python3-pytest
   python3-h5py python3-vtk9 python3-gsd
+  libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev
   clang-14 libomp-14-dev libclang-rt-14-dev clang-format-14 clang-tidy-14
   chromium chromium-driver python3-selenium)
 

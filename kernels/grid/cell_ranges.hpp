@@ -14,17 +14,18 @@ class grid;
 template <int D>
 class cell_ranges {
  public:
-  /// keys: (kind, cell) of all particles, ascending; fluid and boundary: how many there are. boundary_kept: those lie
-  /// where they lay in the last call. renumbered: a key means another cell than in the last call.
+  /// keys: (kind, cell) of all particles, ascending, above so many lower bits; fluid and boundary: how many there are.
+  /// boundary_kept: those lie where they lay in the last call. renumbered: a key means another cell than in the last
+  /// call.
   template <class R>
-  void make(std::span<const std::uint32_t> keys, std::size_t fluid, std::size_t boundary, bool boundary_kept,
-            bool renumbered, grid<D, R>& g, const team& t);
+  void make(std::span<const std::uint32_t> keys, int lower_bits, std::size_t fluid, std::size_t boundary,
+            bool boundary_kept, bool renumbered, grid<D, R>& g, const team& t);
 
   const cells<D>& view() const { return cells_; }
 
  private:
-  void find_cells(std::span<const std::uint32_t> keys, std::size_t fluid, std::size_t boundary, std::uint32_t cell_mask,
-                  const team& t);
+  void find_cells(std::span<const std::uint32_t> keys, int lower_bits, std::size_t fluid, std::size_t boundary,
+                  std::uint32_t cell_mask, const team& t);
 
   cells<D> cells_;
   column<std::uint32_t> fluid_starts_, boundary_starts_;

@@ -1,3 +1,4 @@
+#include <pairsum/core/error.hpp>
 #include <pairsum/core/places.hpp>
 #include <pairsum/grid/indexer.hpp>
 
@@ -21,6 +22,9 @@ void indexer<D, R>::build(particle_set<D, R>& p, const team& t) {
   known_ = false;  // until this build has come to its end
   if (omega_.periodic.any()) bring_back(p, all ? p.size() : fluid_, t);
   const bool renumbered = grid_->adapt(p, all ? p.size() : fluid_, t);
+  if (cell_bits() > 30)
+    throw error(
+        "ghosts take a bit of a cell's number, and a grid of 2^30 cells leaves none: use a smaller M or another grid");
   bool boundary_kept = false;
   if (all || renumbered) {
     make_keys(p, t);
@@ -35,7 +39,7 @@ void indexer<D, R>::build(particle_set<D, R>& p, const team& t) {
     const std::size_t end = lost_ == 0 ? fluid_ : p.size();
     fluid_ -= lost_;
     if (movers_.size() * few <= end) {
-      merge_.make({keys_.data(), end}, movers_, grid_->key_bits() + 2, t);
+      merge_.make({keys_.data(), end}, movers_, cell_bits() + 2, t);
       for (const mover& m : movers_) keys_[m.from] = m.key;
       merge_.apply(keys_, t);
       merge_.apply(p, t);
@@ -44,7 +48,7 @@ void indexer<D, R>::build(particle_set<D, R>& p, const team& t) {
       sort(p, t);
     }
   }
-  ranges_.make(keys_, fluid_, boundary_, boundary_kept, renumbered, *grid_, t);
+  ranges_.make(keys_, ghost_bits_, fluid_, boundary_, boundary_kept, renumbered, *grid_, t);
   known_ = true;
 }
 
@@ -98,10 +102,13 @@ void indexer<D, R>::keys_of(particle_set<D, R>& p, std::size_t begin, std::size_
         p.kind[i] = particle_kind::lost;
         ++lost;
       }
-  const int kind_shift = grid_->key_bits();
+  const int kind_shift = cell_bits();
+  if (ghost_bits_ > 0)
+    for (std::size_t i = begin; i < end; ++i)
+      out[i - begin] = out[i - begin] << 1 | static_cast<std::uint32_t>(p.kind[i] == particle_kind::ghost);
   for (std::size_t i = begin; i < end; ++i) {
     const std::uint32_t cell = p.kind[i] == particle_kind::lost ? 0 : out[i - begin];
-    out[i - begin] = cell | static_cast<std::uint32_t>(p.kind[i]) << kind_shift;
+    out[i - begin] = cell | place_of(p.kind[i]) << kind_shift;
   }
 }
 
@@ -118,7 +125,7 @@ void indexer<D, R>::make_keys(particle_set<D, R>& p, const team& t) {
       const std::size_t stop = std::min(begin + chunk, end);
       keys_of(p, begin, stop, keys_.data() + begin, count.lost);
       for (std::size_t i = begin; i < stop; ++i) {
-        count.fluid += p.kind[i] == particle_kind::fluid;
+        count.fluid += place_of(p.kind[i]) == place_of(particle_kind::fluid);
         count.boundary += p.kind[i] == particle_kind::boundary;
       }
     }
@@ -176,13 +183,13 @@ bool indexer<D, R>::ascending(std::size_t begin, std::size_t end, const team& t)
 /// Sorts everything, or the fluid alone if the rest is in order.
 template <int D, class R>
 void indexer<D, R>::sort(particle_set<D, R>& p, const team& t) {
-  const std::uint32_t first_boundary_key = std::uint32_t{1} << grid_->key_bits();
+  const std::uint32_t first_boundary_key = std::uint32_t{1} << cell_bits();
   const bool tail_in_order =
       ascending(fluid_, p.size(), t) &&
       (fluid_ == p.size() || keys_[fluid_] >= first_boundary_key);  // then [0, fluid_) is all fluid
   const std::size_t end = tail_in_order ? fluid_ : p.size();
   if (ascending(0, end, t)) return;
-  counting_sort_.sort({keys_.data(), end}, grid_->key_bits() + (tail_in_order ? 0 : 2), t);
+  counting_sort_.sort({keys_.data(), end}, cell_bits() + (tail_in_order ? 0 : 2), t);
   reorder_.apply(p, counting_sort_.order(), t);
   reorder_.apply(keys_, counting_sort_.order(), t);
 }

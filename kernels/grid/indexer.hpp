@@ -12,7 +12,7 @@ namespace pairsum {
 
 /// Sorts particles by (kind, cell) in place and describes the cells: fluid before boundary before lost, each by
 /// ascending cell key, so that a cell's fluid and a cell's boundary are contiguous, and so are those of cells with
-/// consecutive keys.
+/// consecutive keys. Ghosts are fluid, and the last of their cell.
 ///
 /// The order is that of a stable sort of the particles as they were passed in, for every team. A build after the first
 /// tests the fluid alone and shifts only what the particles that changed their cell displace; if there are none, it
@@ -27,6 +27,12 @@ class indexer {
   /// boundary where it is; else call forget() in between.
   void build(particle_set<D, R>& p, const team& t);
 
+  /// There may be ghosts from now on: the lowest bit of a key says so. Throws pairsum::error if a grid needs that bit.
+  void expect_ghosts() {
+    ghost_bits_ = 1;
+    known_ = false;
+  }
+
   /// Other particles come, or boundary was moved: the next build looks at all of them.
   void forget() { known_ = false; }
 
@@ -35,7 +41,7 @@ class indexer {
   bool holds(const particle_set<D, R>& p, const team& t) const;
 
   const cells<D>& view() const { return ranges_.view(); }
-  std::size_t fluid() const { return fluid_; }        ///< fluid particles are [0, fluid())
+  std::size_t fluid() const { return fluid_; }        ///< fluid particles, and ghosts, are [0, fluid())
   std::size_t boundary() const { return boundary_; }  ///< boundary particles follow
   std::size_t lost() const { return lost_; }          ///< newly lost in this build
 
@@ -46,6 +52,8 @@ class indexer {
   void sort(particle_set<D, R>& p, const team& t);
   bool ascending(std::size_t begin, std::size_t end, const team& t) const;
   bool inside(const particle_set<D, R>& p, std::size_t begin, std::size_t end, const axes& along = axes::all(D)) const;
+  /// Bits of a key below those of the kind.
+  int cell_bits() const { return grid_->key_bits() + ghost_bits_; }
   void keys_of(particle_set<D, R>& p, std::size_t begin, std::size_t end, std::uint32_t* out, std::size_t& lost) const;
 
   box<D, R> omega_;
@@ -53,10 +61,11 @@ class indexer {
   counting_sort counting_sort_;
   reorderer reorder_;
   merge_plan merge_;
-  column<std::uint32_t> keys_;  ///< of all particles, as sorted: (kind, cell)
+  column<std::uint32_t> keys_;  ///< of all particles, as sorted: (kind, cell, ghost)
   std::vector<mover> movers_;
   cell_ranges<D> ranges_;
   bool known_ = false;
+  int ghost_bits_ = 0;
   std::size_t fluid_ = 0, boundary_ = 0, lost_ = 0;
 };
 

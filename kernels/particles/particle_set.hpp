@@ -9,12 +9,16 @@
 
 namespace pairsum {
 
-/// What a particle is; also the order in which kinds lie in memory after indexing.
+/// What a particle is; place_of() says where kinds lie in memory after indexing.
 enum class particle_kind : std::uint8_t {
   fluid = 0,     ///< contributes and is updated
   boundary = 1,  ///< contributes and is never updated
   lost = 2,      ///< left Omega during stepping: kept, no longer summed
+  ghost = 4,     ///< copy of another rank's fluid, among the fluid: contributes; its owner updates it
 };
+
+/// Where a kind lies in memory: fluid with its ghosts, boundary, lost.
+constexpr std::uint32_t place_of(particle_kind k) { return static_cast<std::uint32_t>(k) & 3; }
 
 /// Particles as one column per quantity (SoA), in any order. SI units: x in m, v in m/s, rho in kg/m3, m in kg.
 template <int D, class R>
@@ -24,6 +28,7 @@ struct particle_set {
   column<std::uint32_t> id;
   column<particle_kind> kind;
   std::vector<column<R>> carried;  ///< what an integrator keeps with the particles from stage to stage
+  std::vector<column<R>> since;    ///< positions at an earlier time, or none
 
   std::size_t size() const { return id.size(); }
 
@@ -35,6 +40,7 @@ struct particle_set {
     id.resize(n);
     kind.resize(n);
     for (auto& c : carried) c.resize(n);
+    for (auto& c : since) c.resize(n);
   }
 
   /// Makes room for `columns` carried columns; their values are undefined until written.
@@ -56,6 +62,7 @@ struct particle_set {
     f(id);
     f(kind);
     for (auto& c : carried) f(c);
+    for (auto& c : since) f(c);
   }
 
  private:

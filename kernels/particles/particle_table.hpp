@@ -35,6 +35,19 @@ struct particle_table {
   }
 };
 
+/// Element k of the set becomes the particle with this id.
+template <int D, class R>
+void copy_row(particle_set<D, R>& p, std::size_t k, const particle_table& table, std::uint32_t id) {
+  for (int d = 0; d < D; ++d) {
+    p.x[d][k] = static_cast<R>(table.x[d][id]);
+    p.v[d][k] = static_cast<R>(table.v[d][id]);
+  }
+  p.rho[k] = static_cast<R>(table.rho[id]);
+  p.m[k] = static_cast<R>(table.m[id]);
+  p.kind[k] = table.kind[id];
+  p.id[k] = id;
+}
+
 /// Copies a table into a set of the working precision, in the given order of memory: element k of the set is the
 /// particle with id `order[k]`; an empty order means id order. The team's threads write what will be theirs once the
 /// fluid lies before the rest, so that on a machine with several NUMA nodes new memory lies with who uses it.
@@ -44,15 +57,7 @@ void fill(particle_set<D, R>& p, const particle_table& table, const std::vector<
   const std::size_t n = order.empty() ? table.size() : order.size(), fluid = table.count(particle_kind::fluid);
   p.resize(n);
   const auto copy = [&](std::size_t k) {
-    const std::uint32_t id = order.empty() ? static_cast<std::uint32_t>(k) : order[k];
-    for (int d = 0; d < D; ++d) {
-      p.x[d][k] = static_cast<R>(table.x[d][id]);
-      p.v[d][k] = static_cast<R>(table.v[d][id]);
-    }
-    p.rho[k] = static_cast<R>(table.rho[id]);
-    p.m[k] = static_cast<R>(table.m[id]);
-    p.kind[k] = table.kind[id];
-    p.id[k] = id;
+    copy_row(p, k, table, order.empty() ? static_cast<std::uint32_t>(k) : order[k]);
   };
   t.for_pieces(fluid, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t k = begin; k < end; ++k) copy(k);

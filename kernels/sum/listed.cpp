@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <pairsum/core/same_code.hpp>
+#include <pairsum/sum/cut_meetings.hpp>
 #include <pairsum/sum/pack.hpp>
 
 namespace pairsum {
@@ -57,6 +58,8 @@ PAIRSUM_SAME_CODE void filter_rows(const problem<D, R>& p, const row_sink& sink,
       p.counts->pairs_tested += from.fluid_count + from.boundary_count;
       p.counts->pairs_fluid_fluid += r.fluid_count;
       p.counts->pairs_fluid_boundary += r.boundary_count;
+      for (std::uint32_t k = 0; k < r.fluid_count; ++k)
+        p.counts->pairs_cut += state_of_pair<D, R>(p, r.i, r.fluid[k]) == cut_state::ours;
     }
     return r;
   };

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <pairsum/core/same_code.hpp>
+#include <pairsum/sum/cut_meetings.hpp>
 #include <pairsum/sum/pack.hpp>
 #include <pairsum/sum/prefetch.hpp>
 #include <pairsum/sum/problem.hpp>
@@ -56,16 +57,17 @@ inline void rename(row& r, const std::uint32_t* order) {
   r.i = order[r.i];
 }
 
-template <int D>
-void count_row(const row& r, const meeting<D>& m, work_counts& counts) {
+template <int D, class R>
+void count_row(const search_space<D, R>& s, const row& r, const meeting<D>& m, work_counts& counts) {
   counts.pairs_tested += m.fluid.size() + m.boundary.size();
   if (m.who == partners::later) counts.pairs_tested -= r.i + 1 - m.begin;
+  if (m.who == partners::others) --counts.pairs_tested;  // itself
   counts.pairs_fluid_boundary += r.boundary_count;
-  if (m.who == partners::others) {
-    --counts.pairs_tested;                                                                           // itself
-    for (std::uint32_t k = 0; k < r.fluid_count; ++k) counts.pairs_fluid_fluid += r.fluid[k] < r.i;  // seen twice
-  } else {
-    counts.pairs_fluid_fluid += r.fluid_count;
+  for (std::uint32_t k = 0; k < r.fluid_count; ++k) {
+    const cut_state cut = state_of_pair(s, r.i, r.fluid[k]);
+    const bool seen_twice = m.who == partners::others && cut == cut_state::whole;
+    counts.pairs_fluid_fluid += cut != cut_state::others && !(seen_twice && r.fluid[k] > r.i);
+    counts.pairs_cut += cut == cut_state::ours;
   }
 }
 
@@ -75,7 +77,7 @@ template <int D, class R>
                                   std::uint32_t i, std::size_t candidates, work_counts* counts) {
   std::vector<std::uint32_t> hits(candidates + 1);
   row r = row_of(s, m, i, hits.data());
-  if (counts != nullptr) count_row(r, m, *counts);
+  if (counts != nullptr) count_row(s, r, m, *counts);
   if (s.order != nullptr) rename(r, s.order);
   sink.take(sink.call, &r, 1);
 }
@@ -107,7 +109,7 @@ PAIRSUM_SAME_CODE void list_rows(const search_space<D, R>& s, const row_sink& si
       row& r = rows[filled];
       r = row_of(s, m, i, to);
       if (counts != nullptr) [[unlikely]]
-        count_row(r, m, *counts);
+        count_row(s, r, m, *counts);
       const std::uint32_t found = r.fluid_count + r.boundary_count;
       if (found == 0 && !keep_empty) continue;
       if (s.order != nullptr) rename(r, s.order);
@@ -118,11 +120,34 @@ PAIRSUM_SAME_CODE void list_rows(const search_space<D, R>& s, const row_sink& si
   flush();
 }
 
+/// With ghosts: their pairs with each other are left out, and in mode `once` those that another rank sums.
+template <int D, class R>
+[[gnu::noinline]] void list_cut_meetings(const problem<D, R>& p, const search_space<D, R>& space, const row_sink& sink,
+                                         const meeting<D>* m, unsigned n, work_counts* counts) {
+  const ours_alone filter{sink, *space.ghosts, p.lanes != nullptr};
+  const row_sink to = space.ghosts->pairs == cut_pairs::once ? row_sink{&ours_alone::take, &filter, sink.spare} : sink;
+  const auto list = [&](const row_sink& taker, const meeting<D>* some, unsigned size) {
+    if (p.lanes != nullptr)
+      p.lanes->list(space.places, space.order, taker, some, size);
+    else
+      list_rows(space, taker, some, size, counts);
+  };
+  for (unsigned k = 0; k < n;) {
+    unsigned end = k;
+    while (end < n && !meets_ghosts(space, m[end])) ++end;
+    if (end > k) list(sink, m + k, end - k);
+    if (end < n) each_cut(space, m[end], [&](const meeting<D>& part) { list(to, &part, 1); });
+    k = end + 1;
+  }
+}
+
 }  // namespace
 
 template <int D, class R>
 void list_meetings(const problem<D, R>& p, const search_space<D, R>& space, const row_sink& sink, const meeting<D>* m,
                    unsigned n, work_counts* counts) {
+  if (space.ghosts != nullptr) [[unlikely]]
+    return list_cut_meetings(p, space, sink, m, n, counts);
   if (p.lanes != nullptr)
     p.lanes->list(space.places, space.order, sink, m, n);
   else
@@ -148,11 +173,20 @@ template <int D, class R>
 void sum_cells(const problem<D, R>& p, const target& to, partners who, const std::uint32_t* cell, std::size_t n) {
   const bool half = who == partners::later;
   // Finding and summing in one function adds to the problem's own rates alone.
-  if (p.lanes != nullptr && to.how == update::plain && to.u.begin == p.u.begin) {
+  const bool at_once = p.lanes != nullptr && to.how == update::plain && to.u.begin == p.u.begin;
+  const auto sum_at_once = [&](const std::uint32_t* some, std::size_t size) {
     const sum_call<D, R> call{p, to};
-    return (half ? p.pairs->half_stencils : p.pairs->full_stencils)(call, cell, n);
-  }
+    return (half ? p.pairs->half_stencils : p.pairs->full_stencils)(call, some, size);
+  };
+  if (at_once && p.ghosts == nullptr) return sum_at_once(cell, n);
   for (std::size_t k = 0; k < n; ++k) {
+    if (at_once) {
+      std::size_t end = k;
+      while (end < n && p.ghosts->near[cell[end]] == 0) ++end;
+      if (end > k) sum_at_once(cell + k, end - k);
+      if (end == n) return;
+      k = end;
+    }
     if (half) {
       fetch_in_list<true>(p, cell, n, k, to);
       sum_meetings(p, to, half_stencil(p.cells(), cell[k], p.counts));

@@ -6,6 +6,8 @@
 
 namespace pairsum {
 
+struct ghost_marks;
+
 /// The positions of the sorted set, a column per component.
 template <int D, class R>
 struct positions {
@@ -47,6 +49,7 @@ struct search_space {
   positions<D, R> x;
   R reach2 = 0, boundary_reach2 = 0;     ///< squares of the cutoffs, m2; a boundary_reach2 of 0: boundary does nothing
   const std::uint32_t* order = nullptr;  ///< which particle is number k of x; nullptr: number k
+  const ghost_marks* ghosts = nullptr;   ///< nullptr: there are none
   lane_places<D> places;                 ///< the same for vector units
 };
 

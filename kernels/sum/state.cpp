@@ -45,6 +45,24 @@ void state<D, R>::load(const particle_table& p, const std::vector<std::uint32_t>
 }
 
 template <int D, class R>
+void state<D, R>::load_some(const particle_table& p, const std::vector<std::uint32_t>& ids) {
+  particles_.resize(ids.size());
+  for (std::size_t k = 0; k < ids.size(); ++k) copy_row(particles_, k, p, ids[k]);
+  index_.forget();
+  rows_total_ = p.size();
+  lost_ = 0;
+}
+
+template <int D, class R>
+void state<D, R>::sum_ghosts(cut_pairs pairs) {
+  if (pairs == cut_pairs::once && !this->traits().symmetric)
+    throw error("backend " + std::string(this->traits().name) +
+                " sums one side of each pair, so it cannot sum the pairs between ranks once: use twice");
+  ghosts_.pairs = pairs;
+  index_.expect_ghosts();
+}
+
+template <int D, class R>
 void state<D, R>::check(const particle_table& p) const {
   check_input(p, setup_);
 }
@@ -53,6 +71,10 @@ template <int D, class R>
 void state<D, R>::index(const team& t) {
   index_.build(particles_, t);
   lost_ += index_.lost();
+  if (ghosts_.pairs == cut_pairs::none) return;
+  ghosts_.kind = particles_.kind.data();
+  ghosts_.id = particles_.id.data();
+  ghosts_.mark(index_.view(), index_.fluid(), t);
 }
 
 template <int D, class R>
@@ -99,7 +121,7 @@ std::vector<std::uint32_t> state<D, R>::not_finite() const {
   std::vector<std::uint32_t> ids;
   const auto look = [&](const column<R>& c) {
     for (std::size_t k = 0; k < c.size(); ++k)
-      if (!std::isfinite(c[k])) ids.push_back(particles_.id[k]);
+      if (!std::isfinite(c[k]) && particles_.kind[k] != particle_kind::ghost) ids.push_back(particles_.id[k]);
   };
   for (const auto& c : particles_.x) look(c);
   for (const auto& c : particles_.v) look(c);

@@ -122,6 +122,7 @@ problem<D, R> summation_in<D, R>::bare() const {
   p.grid_cells = &this->index_.view();
   p.fluid_count = this->index_.fluid();
   p.count = p.fluid_count + this->index_.boundary();
+  p.ghosts = this->ghosts_.any() ? &this->ghosts_ : nullptr;
   return p;
 }
 

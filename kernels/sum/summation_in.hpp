@@ -33,6 +33,9 @@ class summation_in final : public state<D, R> {
   rate_table rates() const override;
   std::uint64_t fingerprint() const override;
   dynamics<D, R> rates_of_state() const override { return formula_->rates_of_state(); }
+  rate_columns columns_of_rates() const override {
+    return {view_.columns, formula_->scalar().rate_bytes, formula_->scalar().add};
+  }
 
   /// The schedule, for tests.
   const schedule<D, R>& inner() const { return *schedule_; }

@@ -12,6 +12,7 @@ struct work_counts {
   std::uint64_t pairs_tested = 0;       ///< distance tests made
   std::uint64_t pairs_fluid_fluid = 0;  ///< interacting pairs, each once
   std::uint64_t pairs_fluid_boundary = 0;
+  std::uint64_t pairs_cut = 0;        ///< of the fluid pairs those with a ghost
   std::uint64_t pairs_evaluated = 0;  ///< times the formula was evaluated
   /// Vectors that the fluid pairs of each particle i fill, the last one in part, for 2, 4, 8, 16 lanes.
   std::array<std::uint64_t, 4> vectors{};

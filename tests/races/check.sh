@@ -2,6 +2,7 @@
 # Runs race_main under ThreadSanitizer with Archer and judges what it says.
 #
 #   check.sh clean PROGRAM ARCHER RUNTIME                  all of the library: status 0, done, not one report
+#   check.sh clean PROGRAM ARCHER ranks omp                the same on two ranks
 #   check.sh planted PROGRAM ARCHER RUNTIME NAME ISA       NAME is racy: a data race must be reported, in the phase sum, not before
 #
 # ARCHER is libarcher.so, which tells ThreadSanitizer what OpenMP synchronises; libomp itself is not instrumented.
@@ -9,6 +10,11 @@ set -u
 mode=$1 program=$2 archer=$3 runtime=$4
 shift 4
 what="${*:-$runtime}"
+ranks=
+if [ "$runtime" = ranks ]; then
+  ranks="sh $(dirname "$0")/../ranks/run_ranks.sh mpirun 2"
+  what="ranks $*"
+fi
 race_status=66
 output=$(mktemp) || exit 1
 trap 'rm -f "$output"' EXIT
@@ -30,8 +36,8 @@ export TSAN_OPTIONS="ignore_noninstrumented_modules=1 exitcode=$race_status halt
 fixed=
 if setarch "$(uname -m)" -R true 2>/dev/null; then fixed="setarch $(uname -m) -R"; fi
 
-# shellcheck disable=SC2086  # both are words
-$fixed "$program" $what >"$output" 2>&1
+# shellcheck disable=SC2086  # all are words
+$fixed $ranks "$program" $what >"$output" 2>&1
 status=$?
 [ "$runtime" = tbb ] || grep -qi 'archer detected' "$output" || fail "Archer is not detected ($archer); install libomp-14-dev"
 case $mode in

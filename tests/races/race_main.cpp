@@ -2,8 +2,10 @@
 //
 //   race_main omp|tbb       the library's backends with these threads, scalar and on vector units
 //   race_main BACKEND ISA   a backend with a race on purpose
+//   race_main ranks ...     omp or a backend with a race, in each rank of a job that mpirun started
 #include <cstdio>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +15,8 @@
 #include <pairsum/core/isa.hpp>
 #include <pairsum/core/workers.hpp>
 #include <pairsum/integrators/integrator.hpp>
+#include <pairsum/ranks/job.hpp>
+#include <pairsum/ranks/ranked.hpp>
 #include <pairsum/sum/registry.hpp>
 #include <pairsum/sum/setup_of.hpp>
 #include "planted.hpp"
@@ -21,6 +25,17 @@ namespace pairsum::races {
 namespace {
 
 constexpr int threads = 4;
+
+/// The job, if there are ranks.
+std::unique_ptr<ranks::job> job;
+
+/// A summation on this process, or on all ranks, with ghosts that have rates where the backend can give them any.
+std::unique_ptr<summation> made(const registry& all, const setup& s) {
+  auto alone = all.make_summation(s);
+  if (job == nullptr) return alone;
+  const cut_pairs pairs = alone->traits().symmetric ? cut_pairs::once : cut_pairs::twice;
+  return ranks::make_ranked(std::move(alone), {.pairs = pairs});
+}
 
 /// Particles and a grid. Enough fluid (104 thousand particles in dam_break) that threads meet: with a few thousand,
 /// real races stay unseen.
@@ -59,7 +74,7 @@ void run(const registry& all, const world& w, std::string_view backend, std::str
   s.M = w.of.M;
   if (s.M == 0) s.grid = "dense_grid";
 
-  const auto summation = all.make_summation(s);
+  const auto summation = made(all, s);
   const auto says = [&](const char* phase) {
     std::fprintf(stderr, "race_main: %s %s phase %s\n", s.backend.c_str(), s.isa.c_str(), phase);
   };
@@ -98,6 +113,15 @@ void run_library(runtime r) {
   }
 }
 
+/// A backend for each way of keeping threads apart, scalar and on vector units.
+void run_on_ranks() {
+  const registry& all = registry::instance();
+  const workers w(runtime::omp, threads);
+  const world one(trials[0]);
+  for (const char* backend : {"naive_omp", "symmetric_omp", "sliced_locks", "touched_blocks", "verlet_list"})
+    for (const auto isa : {scalar_isa, best_isa}) run(all, one, backend, isa, w.get());
+}
+
 void run_planted(std::string_view name, std::string_view isa) {
   registry all = registry::instance();
   for (const backend_entry& planted : planted_backends()) all.add(planted);
@@ -106,15 +130,20 @@ void run_planted(std::string_view name, std::string_view isa) {
 }
 
 int main_of(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "ranks") {
+    job = std::make_unique<ranks::job>();
+    --argc, ++argv;
+  }
   const std::string_view first = argc > 1 ? argv[1] : "";
   if (argc == 2 && first == "omp")
-    run_library(runtime::omp);
+    job != nullptr ? run_on_ranks() : run_library(runtime::omp);
   else if (argc == 2 && first == "tbb")
     run_library(runtime::tbb);
   else if (argc == 3)
     run_planted(first, argv[2]);
   else
-    throw error("usage: race_main omp|tbb | BACKEND ISA");
+    throw error("usage: race_main [ranks] omp|tbb | BACKEND ISA");
+  job.reset();
   std::printf("race_main: done\n");
   return 0;
 }

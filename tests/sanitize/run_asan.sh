@@ -18,7 +18,7 @@ cmake --preset asan -S "$source" -B "$build" >"$build/configure.log" 2>&1 || {
   cat "$build/configure.log"
   exit 1
 }
-cmake --build "$build" --parallel 2 --target test_kernels test_rows fuzz_rows fuzz_plans fuzz_profiles fuzz_csv fuzz_bi4 fuzz_planted \
+cmake --build "$build" --parallel 2 --target test_kernels test_rows test_ranks fuzz_rows fuzz_plans fuzz_profiles fuzz_csv fuzz_bi4 fuzz_planted \
   >"$build/build.log" 2>&1 || {
   grep -E 'error|FAILED' "$build/build.log" || cat "$build/build.log"
   exit 1
@@ -54,4 +54,8 @@ export ASAN_OPTIONS=detect_stack_use_after_return=1 UBSAN_OPTIONS=print_stacktra
 # As the preset has them for ctest: few random cases, the same each time; threads that wait leave their core to others.
 export RC_PARAMS="seed=2009 max_success=20" OMP_WAIT_POLICY=passive
 for program in test_rows test_kernels; do run "$program"; done
+# On two ranks; without a look for leaks, which MPI has in modules that it unloads before the end.
+some='*/tiles_tbb:*/touched_blocks:*/half_cells'
+ASAN_OPTIONS="$ASAN_OPTIONS:detect_leaks=0" sh "$source/tests/ranks/run_ranks.sh" mpirun 2 "$build/bin/test_ranks" --gtest_brief=1 \
+  "--gtest_filter=domain.*:exchange.*:closed_forms.*:modes.*:moving.*:$some"
 sh "$source/tests/fuzz/run_fuzzers.sh" "$build/bin" "$source/tests/fuzz/corpus" 20 "$build/fuzz"

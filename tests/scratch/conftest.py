@@ -75,7 +75,7 @@ def configure(tree, *options):
     """Little more than what is added; the compiler does not optimise."""
     restricted = ["-DPAIRSUM_DIMS=2", "-DPAIRSUM_PRECISIONS=double", "-DPAIRSUM_INTERACTIONS=my_pairs;ferrari09",
                   "-DPAIRSUM_SMOOTHINGS=wendland_c2", f"-DPAIRSUM_ISAS={'sse4' if platform.machine() == 'x86_64' else 'all'}",
-                  "-DPAIRSUM_GBENCH=OFF", "-DPAIRSUM_NATIVE=OFF", "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0",
+                  "-DPAIRSUM_GBENCH=OFF", "-DPAIRSUM_RANKS=OFF", "-DPAIRSUM_NATIVE=OFF", "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0",
                   f"-DCMAKE_CXX_COMPILER={os.environ['PAIRSUM_CXX']}"]
     return subprocess.run(["cmake", "-G", os.environ["PAIRSUM_GENERATOR"], "-S", tree, "-B", tree / "build", *restricted, *options],
                           text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)

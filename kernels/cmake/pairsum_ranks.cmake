@@ -1,0 +1,18 @@
+# Sums over several processes, a library of its own: nothing else of pairsum links MPI. Zoltan's own CMake package does not link
+# on Debian, so its header and library are looked for.
+find_package(MPI QUIET COMPONENTS CXX)
+find_path(zoltan_include zoltan.h PATH_SUFFIXES trilinos)
+find_library(zoltan_library NAMES trilinos_zoltan zoltan)
+if(NOT MPI_CXX_FOUND OR NOT zoltan_include OR NOT zoltan_library)
+  set(needs "pairsum::ranks needs MPI and Zoltan (Debian: libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)")
+  if(PAIRSUM_RANKS STREQUAL AUTO)
+    message(STATUS "${needs}: it is not built")
+    return()
+  endif()
+  message(FATAL_ERROR "${needs}; PAIRSUM_RANKS=OFF builds without it")
+endif()
+add_library(pairsum_ranks STATIC ranks/domain.cpp ranks/exchange.cpp ranks/job.cpp ranks/partition.cpp ranks/ranked.cpp)
+add_library(pairsum::ranks ALIAS pairsum_ranks)
+target_include_directories(pairsum_ranks SYSTEM PRIVATE ${zoltan_include})
+target_compile_definitions(pairsum_ranks PRIVATE OMPI_SKIP_MPICXX)
+target_link_libraries(pairsum_ranks PUBLIC pairsum_kernels PRIVATE ${zoltan_library} MPI::MPI_CXX)
