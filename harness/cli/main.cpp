@@ -11,6 +11,8 @@
 #include "harness/plan/levels.hpp"
 #include "harness/plan/refusal.hpp"
 #include "harness/plugin/plugins.hpp"
+#include "harness/ranks/crew.hpp"
+#include "harness/run/by_ranks.hpp"
 #include "harness/terminal/program.hpp"
 
 namespace {
@@ -91,5 +93,13 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pairsum::harness::as_program("pairsum", [&] { return run_program(argc, argv); });
+  return pairsum::harness::as_program("pairsum", [&] {
+    const std::string_view command = argc < 2 ? "" : argv[1];
+    if (command != "job") {
+      const bool takes_ranks = command == "run" || command == "verify" || command == "simulate";
+      return takes_ranks && pairsum::harness::left_to_the_first() ? 0 : run_program(argc, argv);
+    }
+    argv[1] = argv[0];  // what run_job() starts
+    return pairsum::harness::as_rank([&] { return run_program(argc - 1, argv + 1); });
+  });
 }

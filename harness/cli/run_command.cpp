@@ -12,12 +12,14 @@
 #include <pairsum/core/error.hpp>
 #include "harness/cli/commands.hpp"
 #include "harness/cli/profile_levels.hpp"
+#include "harness/cli/sbatch.hpp"
 #include "harness/environment/machine.hpp"
 #include "harness/evolve/initial_of.hpp"
 #include "harness/plan/levels.hpp"
 #include "harness/plan/narrow.hpp"
 #include "harness/plan/study.hpp"
 #include "harness/plugin/plugins.hpp"
+#include "harness/run/by_ranks.hpp"
 #include "harness/run/dry_run.hpp"
 #include "harness/run/point_setup.hpp"
 #include "harness/run/study.hpp"
@@ -30,7 +32,9 @@ namespace {
 constexpr level_option comparison_options[] = {
     {"backend", "naive_omp,symmetric_omp", "backends, or all (pairsum list)"},
     {"M", "6,7", "hash sizes, like 6,7 or 5..9: the grid folds to 2^M cells an axis"},
-    {"threads", "all", "numbers of threads; all: 1, 2, 4, ... all cores; cores: all cores"},
+    {"threads", "all", "numbers of threads; all: 1, 2, 4, ... all cores; cores: all; cores/ranks"},
+    {"ranks", "1", "numbers of ranks of an MPI job, which share the particles"},
+    {"cut", "twice", "pairs across ranks: twice: both ranks sum them; once: one does, and sends back"},
     {"grid", "hashed_grid", "grids; those that take no M are measured once"},
     {"precision", "double", "working precisions"},
     {"isa", "default", "scalar, best, avx2, all; default: best for tiles, scalar for others"},
@@ -70,13 +74,15 @@ constexpr option_group level_groups[] = {
 constexpr int rounds_of_interval = 6;  ///< fewer give no interval of 95 % for a median
 
 struct run_options {
-  std::string plan, profile, study = "run", out, results = "results", binding = "cores_first";
-  std::string again;  ///< the words that were given
+  std::string plan, profile, study = "run", out, results = "results", binding = "cores_first",
+                             launcher = default_launcher;
+  std::string again;    ///< the words that were given
+  std::string in_jobs;  ///< those that a job script gives
   std::map<std::string, std::string> levels;
   std::vector<std::string> programs, only;
   std::int64_t rounds = 6;
   double budget_s = 0, half_width = 0;
-  bool fresh = false, dry_run = false, show_plan = false, peaks = false, oversubscribe = false;
+  bool fresh = false, dry_run = false, show_plan = false, sbatch = false, peaks = false, oversubscribe = false;
 };
 
 study_plan plan_from_options(const run_options& o, const given_options& given) {
@@ -85,7 +91,10 @@ study_plan plan_from_options(const run_options& o, const given_options& given) {
   plan.title = "run";
   plan.peaks = o.peaks;
   part_plan part;
-  part.request = levels_of(o.levels, o.profile, given);
+  std::map<std::string, std::string> levels = o.levels;
+  if (!given.at("ranks")) levels["ranks"] = std::to_string(ranks_unless_said());
+  if (!given.at("threads") && levels["ranks"] != "1") levels["threads"] = "cores/ranks";
+  part.request = levels_of(levels, o.profile, given);
   part.request.study = o.study;
   plan.parts.push_back(part);
   return plan;
@@ -111,19 +120,25 @@ study_plan plan_of(const run_options& o, const given_options& given) {
                       "file of your own",
                       option_of(key), o.plan, key));
   if (given.at("study")) throw error("--study is said by the plan " + o.plan);
-  const nlohmann::json text = load_plan(o.plan);
+  nlohmann::json text = load_plan(o.plan);
+  if (text.is_object() && ranks_unless_said() > 1) {
+    nlohmann::json& defaults = text["defaults"];
+    if (defaults.is_null() || (defaults.is_object() && !defaults.contains("ranks")))
+      defaults["ranks"] = ranks_unless_said();
+  }
   study_plan plan = in_plan(o, [&] { return parse_plan(text, usable_cores()); });
   if (given.at("seed"))
     for (part_plan& p : plan.parts) read_level(p.request, "seed", o.levels.at("seed"), 0, "--seed");
   return plan;
 }
 
-/// The words that were given, but for where rows go.
-std::string words_of(const CLI::App& command) {
+/// The words that were given, but for where rows go and these.
+std::string words_of(const CLI::App& command, const std::set<std::string>& left_out = {}) {
   std::string words = "run";
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_single_name();
-    if (option->count() == 0 || name == "out" || name == "results" || name == "fresh") continue;
+    if (option->count() == 0 || name == "out" || name == "results" || name == "fresh" || left_out.contains(name))
+      continue;
     for (const std::string& value : option->results()) {
       if (!option->get_positional()) words += " --" + name;
       if (option->get_items_expected_max() > 0) words += " " + shell_word(value);
@@ -132,12 +147,13 @@ std::string words_of(const CLI::App& command) {
   return words;
 }
 
-/// The numbers of threads of the plan's points; serial backends have 1, whatever their part says.
+/// The numbers of threads of the plan's points, of all their ranks together; serial backends have 1, whatever their
+/// part says.
 std::vector<int> threads_of(const study_plan& plan, const registry& all) {
   std::vector<int> threads;
   for (const part_plan& part : plan.parts)
     for (const world_plan& points : expand(part.request, all))
-      for (const point& p : points) threads.push_back(p.threads);
+      for (const point& p : points) threads.push_back(p.threads * p.ranks);
   return threads;
 }
 
@@ -150,7 +166,20 @@ void check_name(const std::string& file) {
   }
 }
 
+/// Prints the job script that carries out the plan.
+int print_sbatch(const run_options& o, const study_plan& plan, const registry& all, bool launcher_given) {
+  if (launcher_given) static_cast<void>(launcher_words(o.launcher, 1));
+  const std::string out =
+      o.out.empty() ? (std::filesystem::path(o.results) / plan.study / "sbatch.jsonl").string() : o.out;
+  check_name(out);
+  fmt::print("{}", sbatch_script(plan, all,
+                                 {std::filesystem::canonical(this_program()), std::filesystem::current_path(),
+                                  o.in_jobs, launcher_given ? o.launcher : "", out}));
+  return 0;
+}
+
 int start(const run_options& o, const given_options& given) {
+  if (o.sbatch) check_sbatch(given);
   study_plan plan = plan_of(o, given);
   narrow(plan, o.only, usable_cores());
   if (given.at("budget") && !(o.budget_s >= 0 && std::isfinite(o.budget_s)))
@@ -169,7 +198,7 @@ int start(const run_options& o, const given_options& given) {
   }
   std::set<std::string> told;
   for (part_plan& p : plan.parts)
-    if (const std::string table = take_particles(p.request); told.insert(table).second && !o.show_plan)
+    if (const std::string table = take_particles(p.request); told.insert(table).second && !o.show_plan && !o.sbatch)
       fmt::print("{}", table);
   if (o.show_plan) {
     fmt::print("{}\n", plan_json(plan).dump(2));
@@ -178,7 +207,7 @@ int start(const run_options& o, const given_options& given) {
   const registry& all = registry_of(plan);
   told.clear();
   for (part_plan& p : plan.parts)
-    if (const std::string left_out = leave_out_wide_skins(p.request, all); told.insert(left_out).second)
+    if (const std::string left_out = leave_out_wide_skins(p.request, all); told.insert(left_out).second && !o.sbatch)
       fmt::print("{}", left_out);
   if (o.dry_run) {
     fmt::print("{}", in_plan(o, [&] { return dry_run(plan, all); }));
@@ -187,7 +216,7 @@ int start(const run_options& o, const given_options& given) {
     return 0;
   }
   in_plan(o, [&] { check_plan(plan, all); });
-  check_cores(threads_of(plan, all), o.oversubscribe);
+  if (!o.sbatch) check_cores(threads_of(plan, all), o.oversubscribe);
   if (plan.builds != static_cast<int>(o.programs.size()) + 1)
     throw error(plan.builds == 1
                     ? std::string("--program names another build, which only a plan that compares builds takes")
@@ -198,17 +227,19 @@ int start(const run_options& o, const given_options& given) {
     throw error("a study that compares builds takes no --plugin, which is of one build");
   if (given.at("profile") && o.profile.empty()) throw error("--profile takes the name of a file, not \"\"");
   if (given.at("out") && o.out.empty()) throw error("--out takes the name of a file, not \"\"");
+  if (o.sbatch) return print_sbatch(o, plan, all, given.at("launcher"));
   study_options options;
   options.binding = o.binding;
   if (o.fresh && !o.out.empty() && std::filesystem::exists(o.out))
     throw error(fmt::format("--fresh makes a new file, but {} is there", o.out));
-  options.builds.push_back(in_a_process(this_program()));
-  for (const std::string& program : o.programs) options.builds.push_back(in_a_process(program));
+  options.builds.push_back(in_a_process(this_program(), o.launcher));
+  for (const std::string& program : o.programs) options.builds.push_back(in_a_process(program, o.launcher));
   check_name(o.out.empty() ? o.results : o.out);
   const new_folders made(o.out.empty() ? std::filesystem::path(o.results) / plan.study : std::filesystem::path());
   options.out = o.out.empty() ? rows_path(o.results, plan, o.fresh, o.binding) : std::filesystem::path(o.out);
   options.program = called_as();
   options.again = o.again;
+  if (const int ranks = ranks_unless_said(); ranks > 1) options.before = fmt::format("{} -n {} ", o.launcher, ranks);
   return conduct(plan, options, all);
 }
 
@@ -258,6 +289,7 @@ void add_run_command(CLI::App& app, action& chosen) {
   text("--profile", o->profile, "file of pairsum tune: its case and winner where no option says otherwise", design);
   flag("--dry-run", o->dry_run, "print the design and about how long it takes; measure nothing", design);
   flag("--show-plan", o->show_plan, "print the plan as JSON; measure nothing", design);
+  flag("--sbatch", o->sbatch, "print a job script for Slurm that does all this; measure nothing", design);
   add_levels(*command, *o);
   described(add_particle_options(*command, o->levels), "The case, without a plan");
   described(command->add_option("--rounds", o->rounds, "fresh processes that measure all points; intervals need 6 [6]"),
@@ -271,6 +303,7 @@ void add_run_command(CLI::App& app, action& chosen) {
   text("--results", o->results, "folder of studies [results]", files);
   text("--study", o->study, "name of a study without a plan, its folder there [run]", files);
   text("--binding", o->binding, "cores_first: pins threads, one on every core first; none [cores_first]", machine);
+  text("--launcher", o->launcher, "what starts ranks: mpirun, srun, \"mpirun --hostfile FILE\" [mpirun]", machine);
   flag("--oversubscribe", o->oversubscribe, "allow more threads than the machine has for this job", machine);
   flag("--peaks", o->peaks, "measure the machine's bandwidth and peak first, as plans may", machine);
   described(command->add_option("--program", o->programs, "another build, for plans that compare builds"), machine);
@@ -287,6 +320,7 @@ void add_run_command(CLI::App& app, action& chosen) {
   command->callback([&chosen, o, command] {
     const given_options given = given_of(*command);
     o->again = words_of(*command);
+    o->in_jobs = words_of(*command, {"sbatch", "launcher"});
     chosen = [o, given] { return start(*o, given); };
   });
 }

@@ -10,8 +10,11 @@
 #include "harness/environment/machine.hpp"
 #include "harness/evolve/balance.hpp"
 #include "harness/evolve/initial_of.hpp"
+#include "harness/evolve/simulate_registry.hpp"
 #include "harness/plan/levels.hpp"
 #include "harness/plugin/plugins.hpp"
+#include "harness/run/by_ranks.hpp"
+#include "harness/run/job_launch.hpp"
 #include "harness/simulate/simulate.hpp"
 #include "harness/terminal/terminal.hpp"
 
@@ -36,13 +39,15 @@ constexpr level_option simulate_levels[] = {
     {"isa", "default", "scalar, best, avx2, ..."},
     {"block", "auto", "of backends with blocks of cells"},
     {"precision", "double", "working precision"},
-    {"threads", "cores", "number of threads"},
+    {"threads", "cores/ranks", "number of threads of each rank; cores/ranks: all cores, shared by the ranks"},
     {"granularity", "default", "of loops"},
+    {"ranks", "1", "number of ranks of an MPI job, which share the particles"},
+    {"cut", "twice", "pairs across ranks: twice: both ranks sum them; once: one does, and sends back"},
 };
 
 struct simulate_options {
   std::map<std::string, std::string> levels;
-  std::string profile, snapshots;
+  std::string profile, snapshots, launcher = default_launcher;
   simulate_request request;
   bool oversubscribe = false;
 };
@@ -56,7 +61,18 @@ int start(const simulate_options& o, const given_options& given) {
   r.levels = levels_of(o.levels, o.profile, given);
   r.snapshots = o.snapshots;
   fmt::print("{}", take_particles(r.levels));
-  check_cores(r.levels.threads, o.oversubscribe);
+  if (!given.at("ranks")) r.levels.ranks = {ranks_unless_said()};
+  if (r.levels.ranks.size() != 1)
+    throw error(fmt::format("simulate takes one of each, but --ranks names {}", r.levels.ranks.size()));
+  check_request(r.levels, simulate_registry());
+  std::vector<int> threads;
+  for (const world_plan& points : expand(r.levels, simulate_registry()))
+    for (const point& p : points) threads.push_back(p.threads * p.ranks);
+  check_cores(threads, o.oversubscribe);
+  if (!threads.empty()) {
+    const int ranks = r.levels.ranks.front();
+    if (const auto code = by_ranks(ranks, o.launcher, threads.front() / ranks)) return *code;
+  }
   const bool dim3 = r.levels.dim == 3;
   bool first = true;
   const simulate_result done = simulate(r, [&](const moment& m, const balance& b, double energy_at_start) {
@@ -116,6 +132,7 @@ void add_simulate_command(CLI::App& app, action& chosen) {
   command->add_flag("--fresh", r.fresh, "start over where the folder holds a simulation");
   command->add_option("--binding", r.binding, "cores_first: pins threads, one on every core first; none")
       ->capture_default_str();
+  command->add_option("--launcher", o->launcher, "what starts ranks: mpirun, srun, ...")->capture_default_str();
   command->add_flag("--oversubscribe", o->oversubscribe, "allow more threads than the machine has for this job");
   add_plugin_option(*command);
   command->footer(

@@ -19,6 +19,9 @@
 #include "harness/plan/variants.hpp"
 #include "harness/plan/words.hpp"
 #include "harness/plugin/plugins.hpp"
+#include "harness/ranks/crew.hpp"
+#include "harness/run/by_ranks.hpp"
+#include "harness/run/job_launch.hpp"
 #include "harness/run/point_setup.hpp"
 #include "harness/verify/verify_all.hpp"
 
@@ -29,7 +32,8 @@ struct verify_options {
   run_request request;
   std::string case_name, dx, state = "perturbed", dim = "all", precision = "all", interaction = "all",
                              smoothing = "all", backend = "all", grid = "all", isa = "scalar,best", block = "auto",
-                             M = "2,3,6,7", threads = "1,2,3,7", seed = "1";
+                             M = "2,3,6,7", threads = "1,2,3,7", ranks = "1", cut = "twice", seed = "1",
+                             launcher = default_launcher;
   std::map<std::string, std::string> of_files;
   bool each = false, all_M = true, json = false;
 };
@@ -88,6 +92,9 @@ int verify(const verify_options& o) {
   q.states = parse_words("--state", o.state);
   q.M = parse_counts("--M", o.M, 0);
   q.threads = parse_counts("--threads", o.threads, usable_cores());
+  q.ranks = parse_counts("--ranks", o.ranks == "1" ? std::to_string(ranks_unless_said()) : o.ranks, 0);
+  if (q.ranks.size() > 1) throw error(fmt::format("verify takes one number of ranks, not \"{}\"", o.ranks));
+  q.cuts = parse_words("--cut", o.cut);
   q.backends = words_or_all("--backend", o.backend, available_backends(r));
   q.precisions = words_or_all("--precision", o.precision, r.precisions());
   q.interactions = words_or_all("--interaction", o.interaction, r.interactions());
@@ -120,18 +127,20 @@ int verify(const verify_options& o) {
     check_request(here);
     requests.push_back(here);
   }
+  if (const auto code = by_ranks(q.ranks.front(), o.launcher, *std::ranges::max_element(q.threads))) return *code;
   keep_freed_memory();
   verify_report report(o.each, o.json);
-  fmt::print(o.json ? stderr : stdout, "{}", particles);
+  fmt::print(line_stream(o.json), "{}", particles);
   for (const run_request& there : requests) {
     for (const double dx : there.dx)
       for (const std::string& state : there.states) {
-        const initial_condition c = initial_of(there, dx, state).initial;
+        initial_condition c;
+        pairsum::harness::here().in_turn([&] { c = initial_of(there, dx, state).initial; });
         report.begin(there.case_name, dx, state, c);
         run_request here = there;
         here.dx = {dx};
         here.states = {state};
-        fmt::print(o.json ? stderr : stdout, "{}", leave_out(here, wide_skins(c, r), r));
+        fmt::print(line_stream(o.json), "{}", leave_out(here, wide_skins(c, r), r));
         for (const run_request& part : o.all_M ? std::vector{here} : parts_with_M_that_fit(here, c))
           verify_all(r, c, verify_plan_of(part, r), [&](const verify_line& l) { report.add(l); });
       }
@@ -165,6 +174,9 @@ void add_verify_command(CLI::App& app, action& chosen) {
   command->add_option("--block", o->block, "blocks of backends that have some, a list: auto, slab:4, ...")
       ->capture_default_str();
   command->add_option("--threads", o->threads, "numbers of threads, or all")->capture_default_str();
+  command->add_option("--ranks", o->ranks, "of an MPI job that sums together")->capture_default_str();
+  command->add_option("--cut", o->cut, "pairs across ranks are summed: twice, once")->capture_default_str();
+  command->add_option("--launcher", o->launcher, "what starts ranks: mpirun, srun, ...")->capture_default_str();
   command->add_option("--precision", o->precision, "working precisions, or all that are built")->capture_default_str();
   command->add_option("--smoothing", o->smoothing, "smoothing kernels, or all that are built")->capture_default_str();
   command->add_option("--dim", o->dim, "dimensions, or all that are built")->capture_default_str();

@@ -5,6 +5,7 @@
 #include <pairsum/sum/grids.hpp>
 #include "harness/environment/environment.hpp"
 #include "harness/plan/plan.hpp"
+#include "harness/ranks/crew.hpp"
 #include "harness/rows/json_parts.hpp"
 #include "harness/rows/point_words.hpp"
 #include "harness/terminal/terminal.hpp"
@@ -24,23 +25,27 @@ std::string cells_of(const setup& s) {
 
 nlohmann::json sum_json(const verify_line& l) {
   const setup& s = l.sum;
-  return {{"precision", s.precision},
-          {"interaction", s.interaction},
-          {"smoothing", s.smoothing == no_smoothing ? nlohmann::json() : nlohmann::json(s.smoothing)},
-          {"backend", s.backend},
-          {"grid", s.grid},
-          {"M", M_of(s) > 0 ? nlohmann::json(M_of(s)) : nlohmann::json()},
-          {"isa", s.isa},
-          {"block", s.block},
-          {"threads", l.threads},
-          {"error_over_bound", finite(l.share)},
-          {"failure", l.ok ? nlohmann::json() : nlohmann::json(l.error)}};
+  nlohmann::json j{{"precision", s.precision},
+                   {"interaction", s.interaction},
+                   {"smoothing", s.smoothing == no_smoothing ? nlohmann::json() : nlohmann::json(s.smoothing)},
+                   {"backend", s.backend},
+                   {"grid", s.grid},
+                   {"M", M_of(s) > 0 ? nlohmann::json(M_of(s)) : nlohmann::json()},
+                   {"isa", s.isa},
+                   {"block", s.block},
+                   {"threads", l.threads},
+                   {"error_over_bound", finite(l.share)},
+                   {"failure", l.ok ? nlohmann::json() : nlohmann::json(l.error)}};
+  if (here().size() > 1) j.update({{"ranks", here().size()}, {"cut", l.cut}});
+  return j;
 }
 
 }  // namespace
 
+std::FILE* line_stream(bool json) { return json && here().is_first() ? stderr : stdout; }
+
 verify_report::verify_report(bool each, bool json)
-    : each_(each), json_(json), colours_(has_colours(json ? stderr : stdout)), lines_(json ? stderr : stdout) {}
+    : each_(each), json_(json), colours_(has_colours(json ? stderr : stdout)), lines_(line_stream(json)) {}
 
 void verify_report::begin(const std::string& case_name, double dx, const std::string& state,
                           const initial_condition& c) {
@@ -72,8 +77,10 @@ void verify_report::add(const verify_line& l) {
   failed_here_ += !l.ok;
   if (l.share >= worst_) worst_ = l.share, worst_backend_ = s.backend;
   const std::string chosen = " " + s.isa + (s.block == "auto" ? "" : " " + s.block);
+  const std::string threads =
+      std::to_string(l.threads) + (here().size() > 1 ? fmt::format(" ranks={} {} ", here().size(), l.cut) : "");
   if (each_ || !l.ok)
-    fmt::print(lines_, "{}{:<17} {:<13} threads={:<4}{}\n", formula, s.backend + chosen, cells_of(s), l.threads,
+    fmt::print(lines_, "{}{:<17} {:<13} threads={:<4}{}\n", formula, s.backend + chosen, cells_of(s), threads,
                l.ok ? fmt::format("{:.3g}", l.share) : coloured(tone::bad, "FAILED: ", colours_) + l.error);
   std::fflush(lines_);
 }

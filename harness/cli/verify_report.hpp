@@ -10,6 +10,9 @@ namespace pairsum::harness {
 
 inline constexpr const char* verify_schema = "pairsum.verify/1";
 
+/// Where the lines go: to stdout, or with a JSON document there to stderr; of several ranks the first alone is heard.
+std::FILE* line_stream(bool json);
+
 /// What `pairsum verify` prints: a line per formula, or per sum, as they are made, and how many agree. With `json` the
 /// lines go to stderr, and stdout gets one document (verify.schema.json) in the end.
 class verify_report {

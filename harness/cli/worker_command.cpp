@@ -1,11 +1,14 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <iostream>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include <pairsum/core/error.hpp>
 #include "harness/cli/commands.hpp"
+#include "harness/ranks/crew.hpp"
 #include "harness/run/launch.hpp"
 #include "harness/run/worker.hpp"
 #include "harness/terminal/interrupt.hpp"
@@ -21,9 +24,13 @@ std::string read_all(int descriptor) {
   return text;
 }
 
+std::string read_stdin() { return {std::istreambuf_iterator<char>(std::cin), {}}; }
+
+/// @param descriptor of the order; -1: the first rank of a job reads it from stdin
 int work(int descriptor) {
-  note_interrupts();
-  const std::string text = read_all(descriptor);
+  const bool alone = descriptor >= 0;
+  if (alone) note_interrupts();  // ranks of a job end at once, so that none waits for another
+  const std::string text = alone ? read_all(descriptor) : here().told(here().is_first() ? read_stdin() : "");
   order o;
   try {
     o = parse_order(nlohmann::json::parse(text));
@@ -31,7 +38,7 @@ int work(int descriptor) {
     throw error("worker takes the descriptor of an order from the program that conducts a study; use pairsum run");
   }
   const int code = carry_out(o, registry_of(o.plan));
-  say_done(descriptor, code);
+  if (alone) say_done(descriptor, code);
   return code;
 }
 

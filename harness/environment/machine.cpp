@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
+#include <set>
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/job_limits.hpp>
@@ -70,6 +72,19 @@ int cores_within(int units, const job_limits& limits) {
 
 int usable_cores() { return cores_within(units_given(), limits_of_this_job()); }
 
+int job_nodes() {
+  for (const char* const name : {"SLURM_JOB_NUM_NODES", "SLURM_NNODES"})
+    if (const char* const text = std::getenv(name))
+      if (const int nodes = std::atoi(text); nodes >= 1) return nodes;
+  std::set<std::string> hosts;  // PBS and LSF list them, one a line
+  for (const char* const name : {"PBS_NODEFILE", "LSB_DJOB_HOSTFILE"})
+    if (const char* const file = std::getenv(name); file != nullptr && hosts.empty()) {
+      std::ifstream list(file);
+      for (std::string host; list >> host;) hosts.insert(host);
+    }
+  return std::max(1, static_cast<int>(hosts.size()));
+}
+
 std::string limits_text(const job_limits& limits) {
   std::string text = limits.cpus ? fmt::format("{:.4g} processors", *limits.cpus) : "";
   if (limits.memory)
@@ -88,7 +103,7 @@ std::string limits_note(int units, const job_limits& limits) {
 std::string limits_note() { return limits_note(units_given(), limits_of_this_job()); }
 
 std::string too_many(const std::vector<int>& threads) {
-  const int cores = usable_cores(), most = threads.empty() ? 1 : *std::ranges::max_element(threads);
+  const int cores = usable_cores() * job_nodes(), most = threads.empty() ? 1 : *std::ranges::max_element(threads);
   if (most <= cores) return "";
   const std::string why = limits_note();
   return fmt::format("{} threads on {} core{} tell little of the machine; --oversubscribe measures them even so{}",

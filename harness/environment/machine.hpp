@@ -37,6 +37,9 @@ int cores_within(int units, const job_limits& limits);
 /// Threads the machine has for this process: those that it was given, within its control groups' limits.
 int usable_cores();
 
+/// Nodes of the job of a batch system that runs this process, as it tells; 1 without one.
+int job_nodes();
+
 /// "2.5 processors, 4 GiB of memory", or "none".
 std::string limits_text(const job_limits& limits);
 
@@ -45,10 +48,11 @@ std::string limits_text(const job_limits& limits);
 std::string limits_note(int units, const job_limits& limits);
 std::string limits_note();
 
-/// One line where one of these numbers of threads is larger than usable_cores(); else "".
+/// One line where one of these numbers of threads, those of all ranks together, is larger than what the job has: its
+/// nodes times usable_cores(); else "".
 std::string too_many(const std::vector<int>& threads);
 
-/// Throws pairsum::error for more threads than usable_cores(), unless that is wanted.
+/// Throws pairsum::error for more threads than the job has cores, unless that is wanted.
 void check_cores(const std::vector<int>& threads, bool oversubscribe);
 
 }  // namespace pairsum::harness

@@ -38,13 +38,14 @@ moment start_of(const particle_table& p) {
 }
 
 simulation::simulation(std::unique_ptr<summation> sum, const initial_condition& domain, moment start,
-                       const step_rules& rules, const team& t)
+                       const step_rules& rules, const team& t, const crew& ranks)
     : sum_(std::move(sum)),
       domain_(domain),
       now_(std::move(start)),
       rules_(rules),
       integrator_(find_integrator(rules.integrator)),
-      team_(t) {
+      team_(t),
+      ranks_(ranks) {
   sum_->load(now_.particles, {}, team_);
 }
 
@@ -52,10 +53,21 @@ void simulation::fail(const std::string& what) const {
   throw error(fmt::format("step {} (t = {:.6g} s, dt = {:.3g} s): {}", now_.step, now_.t, last_dt_, what));
 }
 
+extremes simulation::extremes_now() {
+  const extremes own = extremes_of(*sum_, domain_.gravity, team_);
+  if (ranks_.size() == 1) return own;
+  std::vector<extremes> all;
+  const std::vector<double> numbers{own.speed, own.acceleration, own.density, static_cast<double>(own.fastest),
+                                    own.finite ? 1.0 : 0.0};
+  for (const std::vector<double>& n : ranks_.gather(numbers))
+    all.push_back({n[0], n[1], n[2], static_cast<std::uint32_t>(n[3]), n[4] > 0});
+  return largest_of(all);
+}
+
 void simulation::step(double end) {
   if (rules_.dt > 0) now_.next_dt = rules_.dt;
   if (now_.next_dt == 0) {  // the first step, before any rate is known
-    extremes start = extremes_of(*sum_, domain_.gravity, team_);
+    extremes start = extremes_now();
     start.acceleration = domain_.gravity;
     now_.next_dt = time_step(start, domain_.H, domain_.eos, rules_.cfl);
   }
@@ -65,7 +77,7 @@ void simulation::step(double end) {
       *sum_, last_dt_, domain_.gravity, [&] { sum_->evaluate(team_); }, team_);
   now_.t = ends ? end : now_.t + last_dt_;
   ++now_.step;
-  const extremes e = extremes_of(*sum_, domain_.gravity, team_);
+  const extremes e = extremes_now();
   constexpr const char* smaller = "; a smaller --dt or --cfl may hold it";
   if (!e.finite) {
     const auto bad = sum_->not_finite();

@@ -8,6 +8,7 @@
 #include <pairsum/integrators/integrator.hpp>
 #include <pairsum/sum/registry.hpp>
 #include "harness/evolve/time_step.hpp"
+#include "harness/ranks/crew.hpp"
 
 namespace pairsum::harness {
 
@@ -36,8 +37,9 @@ struct step_rules {
 class simulation {
  public:
   /// @param domain Omega, gravity and constants; its particles do not matter
+  /// @param ranks that hold the particles of `sum` together and call the same functions
   simulation(std::unique_ptr<summation> sum, const initial_condition& domain, moment start, const step_rules& rules,
-             const team& t);
+             const team& t, const crew& ranks = alone());
 
   /// One step, shortened to end at `end` (s) exactly where it would go beyond. Throws pairsum::error that names the
   /// step and the particle for a state that is not finite, that flies apart (10 times the speed of sound), or that lost
@@ -58,12 +60,16 @@ class simulation {
  private:
   [[noreturn]] void fail(const std::string& what) const;
 
+  /// Those of all ranks.
+  extremes extremes_now();
+
   std::unique_ptr<summation> sum_;
   const initial_condition& domain_;
   moment now_;  ///< its particles are those that were loaded last
   step_rules rules_;
   const integrator_entry& integrator_;
   const team& team_;
+  const crew& ranks_;
   double last_dt_ = 0;
 };
 

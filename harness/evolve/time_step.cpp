@@ -18,6 +18,7 @@ extremes extremes_of(summation& s, double gravity, const team& t) {
       extremes own;
       double v2_most = 0, a2_most = 0;
       for (std::size_t i = begin; i < end; ++i) {
+        if (p.kind[i] == particle_kind::ghost) continue;  // another rank's
         double v2 = 0, a2 = 0, x = 0;
         for (int d = 0; d < D; ++d) {
           const auto v = static_cast<double>(p.v[d][i]);
@@ -38,8 +39,12 @@ extremes extremes_of(summation& s, double gravity, const team& t) {
       pieces[piece] = own;
     });
   });
+  return largest_of(pieces);
+}
+
+extremes largest_of(std::span<const extremes> each) {
   extremes all;
-  for (const extremes& e : pieces) {
+  for (const extremes& e : each) {
     if (e.speed > all.speed) all.speed = e.speed, all.fastest = e.fastest;
     all.acceleration = std::max(all.acceleration, e.acceleration);
     all.density = std::max(all.density, e.density);

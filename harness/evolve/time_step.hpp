@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include <pairsum/eos/tait.hpp>
 #include <pairsum/sum/summation.hpp>
@@ -17,6 +18,9 @@ struct extremes {
 
 /// @param gravity m/s2, along -y (along -x in 1D)
 extremes extremes_of(summation& s, double gravity, const team& t);
+
+/// The largest of all; of equally fast ones the first.
+extremes largest_of(std::span<const extremes> all);
 
 /// The time step that the fastest particle, sound and the strongest acceleration allow (Monaghan, Annu. Rev. Astron.
 /// Astrophys. 30 (1992) 543, sec. 10), s: cfl min(h / (c + |v|), sqrt(h / |a|)), h = H/2.

@@ -22,7 +22,8 @@ class thread_binding;
 /// A team that does not come out with all its threads is a pairsum::error.
 class worker_team {
  public:
-  worker_team(runtime kind, int threads, const thread_binding* binding = nullptr);
+  /// @param first thread k runs on unit first + k
+  worker_team(runtime kind, int threads, const thread_binding* binding = nullptr, int first = 0);
   ~worker_team();
   const team& get() const { return team_; }
 

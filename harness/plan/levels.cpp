@@ -9,6 +9,7 @@
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/isa.hpp>
+#include "harness/environment/machine.hpp"
 #include "harness/plan/variants.hpp"
 #include "harness/plan/words.hpp"
 
@@ -66,11 +67,31 @@ level word(std::string run_request::*member) {
   return {[member](run_request& r, const std::string&, const std::string& text, int) { r.*member = text; },
           [member](const run_request& r) { return json(r.*member); }};
 }
-level counts(std::vector<int> run_request::*member, bool machine = false) {
-  return {[member, machine](run_request& r, const std::string& key, const std::string& text, int cores) {
-            r.*member = parse_counts(key, text, machine ? cores : 0);
+level counts(std::vector<int> run_request::*member) {
+  return {[member](run_request& r, const std::string& key, const std::string& text, int) {
+            r.*member = parse_counts(key, text, 0);
           },
           [member](const run_request& r) { return json(r.*member); }};
+}
+/// Numbers of threads; "cores/ranks" is a number of all ranks together, "8/ranks".
+level threads() {
+  constexpr std::string_view shared = "/ranks";
+  const auto write = [shared](const run_request& r) {
+    json all = r.threads;
+    for (const int t : r.shared_threads) all.push_back(std::to_string(t) + std::string(shared));
+    return all;
+  };
+  return {[shared](run_request& r, const std::string& key, const std::string& text, int cores) {
+            std::string each, together;
+            for (const std::string& word : parse_words(key, text)) {
+              const bool is_shared = word.ends_with(shared);
+              std::string& list = is_shared ? together : each;
+              list += (list.empty() ? "" : ",") + word.substr(0, word.size() - (is_shared ? shared.size() : 0));
+            }
+            r.threads = each.empty() ? std::vector<int>{} : parse_counts(key, each, cores);
+            r.shared_threads = together.empty() ? std::vector<int>{} : parse_counts(key, together, cores * job_nodes());
+          },
+          write};
 }
 /// The only one of them; a list would be cut silently.
 template <class N>
@@ -122,7 +143,9 @@ std::map<std::string, level> all_levels() {
       {"state", words(&r::states)},
       {"backend", backends()},
       {"M", counts(&r::M)},
-      {"threads", counts(&r::threads, true)},
+      {"threads", threads()},
+      {"ranks", counts(&r::ranks)},
+      {"cut", words(&r::cuts)},
       {"dim", count(&r::dim)},
       {"H", number(&r::H)},
       {"order", words(&r::orders)},

@@ -19,6 +19,7 @@
 #include "harness/plan/levels.hpp"
 #include "harness/plan/variants.hpp"
 #include "harness/plan/words.hpp"
+#include "harness/ranks/crew.hpp"
 #include "harness/rows/fields.hpp"
 
 namespace pairsum::harness {
@@ -74,6 +75,13 @@ void check_request(const run_request& r, const registry& all) {
   check_positive("dt", r.dt);
   for (const int M : r.M) check_hash_size(r.dim, M);
   check_built(r, all);
+  for (const int n : r.ranks) {
+    check_at_least("ranks", n, 1);
+    if (n > 65536) throw error(fmt::format("ranks must be at most 65536, is {}", n));
+    if (const std::string why = why_no_ranks(); n > 1 && !why.empty()) throw unavailable(why);
+  }
+  for (const auto& c : r.cuts) check_word("cut", c, cut_words);
+  for (const int t : r.shared_threads) check_at_least("threads of all ranks", t, 1);
   for (const int t : r.threads) {
     check_at_least("threads", t, 1);
     if (t > 4096) throw error(fmt::format("threads must be at most 4096, is {}", t));
@@ -96,6 +104,32 @@ std::string granularity_of(const std::string& word, const backend_traits& b) {
   return name_of(word == default_granularity ? b.loop : parse_granularity(word, b.threads));
 }
 
+/// The numbers of threads of each of so many ranks.
+std::vector<int> threads_of(const run_request& r, int ranks) {
+  std::vector<int> threads = r.threads;
+  for (const int all : r.shared_threads) threads.push_back(std::max(1, all / ranks));
+  return threads;
+}
+
+/// The cut that a word means for a backend on so many ranks: what sums one side of each pair has nothing to send back.
+std::string cut_of(const std::string& word, int ranks, const backend_traits& b) {
+  return ranks == 1 ? std::string(no_cut) : b.symmetric ? word : std::string(cut_words[0]);
+}
+
+/// A number of ranks with the threads of each and the cut.
+struct rank_way {
+  int ranks, threads;
+  std::string cut;
+};
+
+std::vector<rank_way> rank_ways(const run_request& r) {
+  std::vector<rank_way> ways;
+  for (const int ranks : r.ranks)
+    for (const int threads : threads_of(r, ranks))
+      for (const std::string& cut : r.cuts) ways.push_back({ranks, threads, cut});
+  return ways;
+}
+
 /// The points of one world, whose words `p` holds.
 world_plan points_of_world(point p, const run_request& r, const registry& all) {
   constexpr std::size_t most = 20000;
@@ -105,7 +139,7 @@ world_plan points_of_world(point p, const run_request& r, const registry& all) {
   for (const std::string& integrator : r.integrators)
     for (const std::string& order : r.orders)
       for (const cell_grid& grid : grids_of(r))
-        for (const int threads : r.threads)
+        for (const auto& [ranks, threads, cut] : rank_ways(r))
           for (const auto& [backend, isa, block] : ways)
             for (const std::string& granularity : r.granularities) {
               const backend_traits& traits = all.find_backend(backend).traits;
@@ -117,9 +151,12 @@ world_plan points_of_world(point p, const run_request& r, const registry& all) {
               p.isa = isa;
               p.block = block;
               p.threads = traits.threads == runtime::serial ? 1 : threads;
+              p.ranks = ranks;
+              p.cut = cut_of(cut, ranks, traits);
               p.granularity = granularity_of(granularity, traits);
-              const std::string words = fmt::format("{} {} {} {} {} {} {} {} {}", integrator, order, grid.name, grid.M,
-                                                    backend, isa, block, p.threads, p.granularity);
+              const std::string words =
+                  fmt::format("{} {} {} {} {} {} {} {} {} {} {}", integrator, order, grid.name, grid.M, backend, isa,
+                              block, p.threads, p.granularity, ranks, p.cut);
               if (there.insert(words).second) points.push_back(p);
               if (points.size() > most)
                 throw error(fmt::format("the lists make more than {} points of {}; shorter ones make fewer", most,

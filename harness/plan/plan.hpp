@@ -22,6 +22,9 @@ struct run_request {
   std::vector<std::string> backends{"naive_omp", "symmetric_omp"};
   std::vector<int> M{6, 7};
   std::vector<int> threads{1};
+  std::vector<int> shared_threads;         ///< threads of all ranks together: each has its share, at least 1
+  std::vector<int> ranks{1};               ///< processes of an MPI job
+  std::vector<std::string> cuts{"twice"};  ///< who sums pairs across ranks: cut_words
   int dim = 3;
   double H = 0;  ///< 0: 2 dx
   std::vector<std::string> orders{"lattice"}, precisions{"double"}, interactions{"ferrari09"},
@@ -59,8 +62,14 @@ inline constexpr std::string_view no_smoothing = "none";
 /// What stands for the blocks of a backend that has none.
 inline constexpr std::string_view no_block = "none";
 
+/// Who sums a pair of particles that two ranks hold.
+inline constexpr std::string_view cut_words[] = {"twice", "once"};
+/// What stands for that where there is one rank.
+inline constexpr std::string_view no_cut = "none";
+
 /// The points, grouped by world. A serial backend appears once per variant, with 1 thread; an interaction that takes no
-/// smoothing kernel appears once. A backend that was not built for a world's formula and precision is left out of it;
+/// smoothing kernel appears once; so do a sum on one rank, and the sum of one side of each pair, which knows no cut but
+/// "twice". A backend that was not built for a world's formula and precision is left out of it;
 /// check_request refuses a word that no world has.
 std::vector<world_plan> expand(const run_request& r, const registry& all = registry::instance());
 

@@ -11,6 +11,7 @@
 #include <pairsum/core/precision.hpp>
 #include <pairsum/sum/grids.hpp>
 #include "harness/environment/environment.hpp"
+#include "harness/ranks/crew.hpp"
 
 namespace pairsum::harness {
 namespace {
@@ -161,8 +162,12 @@ std::vector<std::string> leave_out_unavailable(run_request& r, const registry& a
     std::erase_if(words, [&](const std::string& word) { return !is_here([&] { check(word); }); });
     return !words.empty();
   };
+  if (const std::string without = why_no_ranks();
+      !without.empty() && std::erase_if(r.ranks, [](int n) { return n > 1; }) > 0)
+    add_once(why, without);
   const bool here =
-      is_here([&] { all.check_dim(r.dim); }) && keep(r.backends, [&](const std::string& b) { all.find_backend(b); }) &&
+      !r.ranks.empty() && is_here([&] { all.check_dim(r.dim); }) &&
+      keep(r.backends, [&](const std::string& b) { all.find_backend(b); }) &&
       keep(r.precisions, [&](const std::string& p) { all.check_precision(p); }) &&
       keep(r.interactions, [&](const std::string& i) { all.check_interaction(i); }) &&
       (!has_smoothed(r, all) || keep(r.smoothings, [&](const std::string& k) { all.check_smoothing(k); })) &&

@@ -78,6 +78,15 @@ bool fields::is_null(const char* key) { return at(key).is_null(); }
 
 fields fields::nested(const char* key) { return fields(at(key), prefix_ + key + "."); }
 
+std::vector<fields> fields::objects(const char* key) {
+  const nlohmann::json& list = at(key);
+  if (!list.is_array()) reject(key, "a list of objects");
+  std::vector<fields> all;
+  for (std::size_t k = 0; k < list.size(); ++k)
+    all.emplace_back(list[k], prefix_ + key + "[" + std::to_string(k) + "].");
+  return all;
+}
+
 double fields::number(const char* key) {
   const auto& value = at(key);
   if (!value.is_number()) reject(key, "a number");

@@ -22,6 +22,9 @@ class fields {
   /// The nested object, with the prefix extended by `key`.
   fields nested(const char* key);
 
+  /// The objects of a list, each with its place in the prefix.
+  std::vector<fields> objects(const char* key);
+
   double number(const char* key);
   std::optional<double> number_or_null(const char* key);
   /// A number >= 0 or null.

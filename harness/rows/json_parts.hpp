@@ -43,4 +43,7 @@ bool read_head(fields& from, const char* kind, Row& row) {
   return former;
 }
 
+/// The ranks of a sample, a list of objects.
+std::vector<rank_row> read_ranks(fields& from, const char* key);
+
 }  // namespace pairsum::harness

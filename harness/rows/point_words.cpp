@@ -9,7 +9,8 @@ std::string cells_word(const point& p) {
 
 std::string place_words(const point& p) {
   const bool shaped = p.block != "none" && p.block != "auto";
-  return p.backend + " " + cells_word(p) + (shaped ? " " + p.block : "") + " threads=" + std::to_string(p.threads);
+  return p.backend + " " + cells_word(p) + (shaped ? " " + p.block : "") + " threads=" + std::to_string(p.threads) +
+         (p.ranks > 1 ? " ranks=" + std::to_string(p.ranks) + " " + p.cut : "");
 }
 
 }  // namespace pairsum::harness

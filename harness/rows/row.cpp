@@ -48,6 +48,8 @@ point read_point(fields from, bool former) {
   p.threads = from.integer("threads", 1);
   p.granularity = from.text("granularity");
   p.isa = from.text("isa");
+  p.ranks = from.has("ranks") ? from.integer("ranks", 1) : 1;
+  if (from.has("cut")) p.cut = from.text_or_null("cut").value_or("none");
   if (from.has("particles")) p.particles = from.hex("particles");
   if (!former || from.has("block")) p.block = from.text("block");  // older rows have none
   from.finish();
@@ -139,6 +141,8 @@ void to_json(json& j, const point& p) {
        {"granularity", p.granularity},
        {"isa", p.isa},
        {"block", p.block}};
+  j["ranks"] = p.ranks;
+  if (p.ranks > 1) j["cut"] = p.cut;
   if (!p.particles.empty()) j["particles"] = p.particles;
 }
 
@@ -189,7 +193,9 @@ void to_json(json& j, const sample& s) {
   j["lost"] = or_null(s.lost);
   j["threads_worked"] = or_null(s.threads_worked);
   j["verify"] = s.verify;
+  if (s.ranks) j["ranks"] = *s.ranks;
   if (s.error) j["error"] = *s.error;
+  if (s.untimed) j["untimed"] = *s.untimed;
 }
 
 void from_json(const json& j, point& p) { p = read_point(fields(j), false); }
@@ -210,8 +216,11 @@ void from_json(const json& j, sample& s) {
   s.error.reset();
   if (from.has("error")) s.error = from.text("error");
   s.phases = read_or_null<phases>(from, "phases", read_phases);
-  if (s.error && s.phases) from.reject("phases", "null in a row with \"error\"");
-  if (!s.error && !s.phases) from.reject("phases", "an object in a row without \"error\"");
+  s.untimed.reset();
+  if (from.has("untimed")) s.untimed = from.text("untimed");
+  if (s.phases && s.error) from.reject("phases", "null in a row with \"error\"");
+  if (s.phases && s.untimed) from.reject("phases", "null in a row with \"untimed\"");
+  if (!s.phases && !s.error && !s.untimed) from.reject("phases", "an object in a row without \"error\"");
   s.threads_busy_s = from.seconds_table_or_null("threads_busy_s");
   s.barrier_wait_s = from.seconds_table_or_null("barrier_wait_s");
   s.counters = read_or_null<counters_row>(from, "counters", read_counters);
@@ -223,6 +232,10 @@ void from_json(const json& j, sample& s) {
     s.lost = from.count_or_null("lost");
     s.threads_worked = from.count_or_null("threads_worked");
   }
+  s.ranks.reset();
+  if (from.has("ranks")) s.ranks = read_ranks(from, "ranks");
+  if (s.ranks.has_value() && s.ranks->size() != static_cast<std::size_t>(s.point.ranks))
+    from.reject("ranks", "a list of " + std::to_string(s.point.ranks) + " ranks");
   s.verify = read_verify(from.nested("verify"));
   from.finish();
 }

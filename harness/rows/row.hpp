@@ -34,8 +34,10 @@ struct point {
   double dt = 0;  ///< time step [s]
   std::string backend;
   std::string grid;
-  int M = 0;  ///< 0 (null in JSON) where the grid takes none
-  int threads = 1;
+  int M = 0;                   ///< 0 (null in JSON) where the grid takes none
+  int threads = 1;             ///< of each rank
+  int ranks = 1;               ///< processes of an MPI job that share the particles; older rows have none
+  std::string cut = "none";    ///< who sums pairs across ranks, "twice" or "once"; "none" (null in JSON) for one rank
   std::string granularity;     ///< how its loops are distributed, "dynamic:32"; "none" for serial backends
   std::string isa;             ///< of the vector units that it used, or "scalar"; older rows have for scalar
                                ///< backends what they were compiled for
@@ -92,6 +94,21 @@ struct counters_row {
 /// Seconds by [pass][thread].
 using thread_times = std::vector<std::vector<double>>;
 
+/// What was sent to other ranks.
+struct traffic_row {
+  std::uint64_t messages = 0, bytes = 0;
+  bool operator==(const traffic_row&) const = default;
+};
+
+/// One rank's part of a step. Particles and pairs are those of the last evaluation, times and traffic of all of them.
+struct rank_row {
+  std::string host, cores;  ///< processing units of its threads, like "0,1"
+  std::uint64_t own = 0, ghosts = 0, boundary = 0, pairs = 0, cut = 0;
+  std::optional<double> busy_s, waiting_s;  ///< of the sum: its own work, and waiting for the last rank
+  traffic_row halo, migrate, send_back, partition;
+  bool operator==(const rank_row&) const = default;
+};
+
 /// Outcome of the verification. Without a fingerprint (16 hex digits) the row is unverified.
 struct verify_row {
   std::optional<double> max_rel_err, bound;
@@ -99,7 +116,7 @@ struct verify_row {
   bool operator==(const verify_row&) const = default;
 };
 
-/// One timed step of a repetition. `phases` is empty exactly if `error` is set.
+/// One timed step of a repetition. `phases` is empty exactly if `error` or `untimed` is set.
 struct sample {
   std::string study, part;
   int round = 1, slot = 1, repetition = 1, step = 1;  ///< each counts from 1
@@ -116,8 +133,10 @@ struct sample {
   std::optional<std::uint64_t> workspace_bytes{};  ///< that the backend holds after its first evaluation
   std::optional<std::uint64_t> lost{};             ///< particles found outside Omega in the step, no longer summed
   std::optional<std::uint64_t> threads_worked{};   ///< of the team, as threads_worked() counts them
+  std::optional<std::vector<rank_row>> ranks{};    ///< by rank, of a point with several
   verify_row verify;
   std::optional<std::string> error;
+  std::optional<std::string> untimed{};  ///< why a step that was verified has no times
   bool operator==(const sample&) const = default;
 };
 
@@ -216,6 +235,7 @@ void to_json(nlohmann::json& json, const point& value);
 void to_json(nlohmann::json& json, const phases& value);
 void to_json(nlohmann::json& json, const vector_use& value);
 void to_json(nlohmann::json& json, const work_row& value);
+void to_json(nlohmann::json& json, const rank_row& value);
 void to_json(nlohmann::json& json, const verify_row& value);
 void to_json(nlohmann::json& json, const sample& value);
 void to_json(nlohmann::json& json, const environment_row& value);

@@ -3,9 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,8 +17,9 @@
 
 #include <pairsum/core/error.hpp>
 #include "harness/measure/cpu_time.hpp"
+#include "harness/run/child.hpp"
+#include "harness/run/job_launch.hpp"
 #include "harness/run/worker.hpp"
-#include "harness/terminal/interrupt.hpp"
 #include "harness/terminal/program.hpp"
 
 namespace pairsum::harness {
@@ -47,57 +45,22 @@ std::optional<int> code_when_done(int file, std::size_t size) {
   return std::atoi(text + mark.size());
 }
 
-/// SIGINT and SIGTERM wait while this lives, so that none is lost between fork and exec.
-class held_signals {
- public:
-  held_signals() {
-    sigemptyset(&held_);
-    sigaddset(&held_, SIGINT);
-    sigaddset(&held_, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &held_, &before_);
-  }
-  ~held_signals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  held_signals(const held_signals&) = delete;
-  held_signals& operator=(const held_signals&) = delete;
-
-  /// In the child, where such a signal ends the process until it notes them itself.
-  void release_in_child() const {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
-    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
-
- private:
-  sigset_t held_, before_;
-};
-
-constexpr int cannot_run = 127, orphaned = 126;
-
-[[noreturn]] void become(const std::string& program, const std::string& descriptor, int file, int store, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(orphaned);  // it has died meanwhile
+void become(const std::string& program, const std::string& descriptor, int file, int store) {
   ::fcntl(file, F_SETFD, 0);
   if (store >= 0) ::fcntl(store, F_SETFD, 0);
   ::execl(program.c_str(), program.c_str(), "worker", descriptor.c_str(), static_cast<char*>(nullptr));
-  ::_exit(cannot_run);
 }
 
-departure wait_for(pid_t child) {
-  int status = 0;
-  rusage use{};
-  bool told = false;
-  while (true) {
-    if (interrupted() && !told) ::kill(child, SIGTERM);
-    told = told || interrupted();
-    if (::wait4(child, &status, 0, &use) >= 0) break;
-    if (errno != EINTR) throw error(fmt::format("cannot wait for a process: {}", std::strerror(errno)));
-  }
-  departure end;
-  end.cpu_s = cpu_time_of(use);
-  if (WIFSIGNALED(status))
-    end.signal = WTERMSIG(status);
-  else
-    end.code = WEXITSTATUS(status);
+departure in_one_process(const std::string& name, const order& o) {
+  const std::string text = order_json(o).dump();
+  const int file = order_file(text);
+  const std::string descriptor = std::to_string(file);
+  departure end = wait_for(start_child(SIGKILL, [&] { become(name, descriptor, file, o.store); }));
+  const std::optional<int> code = code_when_done(file, text.size());
+  ::close(file);
+  end.done = code.has_value();
+  if (code && end.signal == 0) end.code = *code;
+  if (end.code == cannot_run) throw error(fmt::format("{} is no program that can be run", name));
   return end;
 }
 
@@ -132,35 +95,12 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-launcher in_a_process(const std::filesystem::path& program) {
+launcher in_a_process(const std::filesystem::path& program, const std::string& of_jobs) {
   if (::access(program.c_str(), X_OK) != 0 || std::filesystem::is_directory(program))
     throw error(fmt::format("{} is no program that can be run", program.string()));
-  return [name = program.string()](const order& o) {
-    const std::string text = order_json(o).dump();
-    const int file = order_file(text);
-    const std::string descriptor = std::to_string(file);
-    const pid_t parent = ::getpid();
-    pid_t child = -1;
-    {
-      const held_signals held;
-      child = ::fork();
-      if (child == 0) {
-        held.release_in_child();
-        become(name, descriptor, file, o.store, parent);
-      }
-    }
-    const int why = errno;
-    if (child < 0) {
-      ::close(file);
-      throw error(fmt::format("cannot start a process: {}", std::strerror(why)));
-    }
-    departure end = wait_for(child);
-    const std::optional<int> code = code_when_done(file, text.size());
-    ::close(file);
-    end.done = code.has_value();
-    if (code && end.signal == 0) end.code = *code;
-    if (end.code == cannot_run) throw error(fmt::format("{} is no program that can be run", name));
-    return end;
+  return [name = program.string(), of_jobs](const order& o) {
+    if (o.ranks == 1) return in_one_process(name, o);
+    return run_job(of_jobs, name, o.ranks, {"worker", "-1"}, order_json(o).dump(), o.crowded);
   };
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include <pairsum/sum/registry.hpp>
+#include "harness/run/job_launch.hpp"
 #include "harness/run/order.hpp"
 
 namespace pairsum::harness {
@@ -13,7 +14,8 @@ using launcher = std::function<departure(const order&)>;
 /// In a fresh process of this program or of another build of it: address space, thread pools and memory are new. The
 /// process dies with this one; SIGINT and SIGTERM are handed on to it. Throws pairsum::error if `program` cannot be
 /// run.
-launcher in_a_process(const std::filesystem::path& program);
+/// @param of_jobs what starts an order of several ranks, see run_job(); they are of this program
+launcher in_a_process(const std::filesystem::path& program, const std::string& of_jobs = default_launcher);
 
 /// Says to the process that handed the order over, through its descriptor, that the work came to its end with this
 /// code. No library that ends the process can say it.

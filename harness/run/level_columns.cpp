@@ -2,6 +2,7 @@
 
 #include <map>
 #include <set>
+#include <string_view>
 
 namespace pairsum::harness {
 namespace {
@@ -21,6 +22,8 @@ const level levels[] = {
     {"grid", [](const ranked& r) { return r.what.grid; }, false, false},
     {"M", [](const ranked& r) { return r.what.M > 0 ? std::to_string(r.what.M) : no_word; }, false, true},
     {"threads", [](const ranked& r) { return std::to_string(r.what.threads); }, false, true},
+    {"ranks", [](const ranked& r) { return std::to_string(r.what.ranks); }, false, true},
+    {"cut", [](const ranked& r) { return or_none(r.what.cut); }, false, true},
     {"precision", [](const ranked& r) { return r.what.precision; }, false, false},
     {"isa", [](const ranked& r) { return r.what.isa; }, true, false},
     {"block", [](const ranked& r) { return or_none(r.what.block); }, true, false},
@@ -29,6 +32,9 @@ const level levels[] = {
     {"rounds", [](const ranked& r) { return r.step_s.empty() ? no_word : std::to_string(r.step_s.size()); }, false,
      true},
 };
+
+/// One rank is what nobody speaks of.
+bool is_plain(const level& l, const std::string& word) { return std::string_view(l.name) == "ranks" && word == "1"; }
 
 /// The words of the points by backend.
 std::map<std::string, std::set<std::string>> words_of_backends(const level& l, const std::vector<ranking>& all) {
@@ -52,7 +58,7 @@ level_columns::level_columns(const std::vector<ranking>& all) {
     if (levels[k].own ? backend_has_several : words.size() > 1) {
       shown_.push_back(k);
       names_.emplace_back(levels[k].name);
-    } else if (words.size() == 1 && !(levels[k].own && some_have_none)) {
+    } else if (words.size() == 1 && !(levels[k].own && some_have_none) && !is_plain(levels[k], *words.begin())) {
       common_ +=
           (common_.empty() ? "" : ", ") + (levels[k].spoken ? std::string(levels[k].name) + " " : "") + *words.begin();
     }

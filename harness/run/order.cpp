@@ -9,7 +9,7 @@
 namespace pairsum::harness {
 namespace {
 
-constexpr const char* order_schema = "pairsum.order/4";
+constexpr const char* order_schema = "pairsum.order/5";
 constexpr const char* errands[] = {"peaks", "verify", "measure"};
 
 }  // namespace
@@ -26,6 +26,10 @@ nlohmann::json order_json(const order& o) {
           {"particles", o.known.particles},
           {"binding", o.binding},
           {"store", o.store},
+          {"store_path", o.store_path},
+          {"store_host", o.store_host},
+          {"ranks", o.ranks},
+          {"crowded", o.crowded},
           {"standing",
            {{"elapsed_s", o.where.elapsed_s},
             {"done_s", o.where.done_s},
@@ -55,6 +59,10 @@ order parse_order(const nlohmann::json& j) {
   o.known.particles = j.at("particles").get<std::set<std::string>>();
   o.binding = j.at("binding");
   o.store = j.at("store");
+  o.store_path = j.at("store_path");
+  o.store_host = j.at("store_host");
+  o.ranks = j.at("ranks");
+  o.crowded = j.at("crowded");
   const auto& where = j.at("standing");
   o.where = {where.at("elapsed_s"), where.at("done_s"),        where.at("this_s"),
              where.at("all_s"),     where.value("shown", 0.0), where.at("text")};

@@ -25,7 +25,10 @@ struct order {
   std::string out;    ///< rows file
   known_names known;  ///< what its rows may name, so that it need not be read again
   std::string binding = "cores_first";
-  int store = -1;  ///< descriptor of the shared store; -1: none
+  int store = -1;                      ///< descriptor of the shared store; -1: none
+  std::string store_path, store_host;  ///< the store for processes that do not inherit it, on that host
+  int ranks = 1;                       ///< of the points that it is about, and of those who carry it out
+  bool crowded = false;                ///< these have more threads than the job has cores
   standing where;
 };
 

@@ -91,7 +91,7 @@ verify_plan verify_plan_of(const run_request& r, const registry& all) {
   verify_plan plan;
   for (const world_plan& points : expand(r, all)) {
     plan.emplace_back();
-    for (const point& p : points) plan.back().push_back({named(p, {}), p.threads});
+    for (const point& p : points) plan.back().push_back({named(p, {}), p.threads, p.cut});
   }
   return plan;
 }

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -37,6 +40,13 @@ class conductor {
         file_(options.out, plan, environment_),
         estimate_(plan, all),
         line_(standing{}, plan.budget_s) {
+    for (const part_plan& part : plan.parts) {
+      auto& threads = most_threads_.emplace_back();
+      for (const world_plan& points : expand(part.request, all))
+        for (const point& p : points) threads[p.ranks] = std::max(threads[p.ranks], p.threads);
+      auto& ranks = ranks_.emplace_back();
+      for (const auto& [n, most] : threads) ranks.push_back(n);
+    }
     const std::size_t cut = file_.mend();
     if (cut > 0)
       say(fmt::format("{}: a last line that was cut ({} bytes) is taken away", one_line(options.out.string()), cut));
@@ -78,11 +88,11 @@ class conductor {
 
   double left() const { return plan_.budget_s - since_start_.seconds(); }
 
-  /// One process of the first build. False if the study ends here.
-  bool carry_out(errand what, std::size_t part, double estimated, const std::string& text) {
+  /// One process of the first build, or its ranks. False if the study ends here.
+  bool carry_out(errand what, std::size_t part, int ranks, double estimated, const std::string& text) {
     for (int crashes = 0; code_ == 0;) {
       const std::size_t store_end = store_.end();
-      const departure end = launch(0, order_for(what, part, estimated, text));
+      const departure end = launch(0, order_for(what, part, ranks, estimated, text));
       if (went_well(end)) {
         done_s_ += estimated;
         return true;
@@ -102,6 +112,13 @@ class conductor {
     line_.take_over();
     shown_ = line_.share(o.where.done_s + o.where.this_s);
     return end;
+  }
+
+  /// Have these ranks of a part more threads together than the job has cores?
+  bool is_crowded(std::size_t part, int ranks) const {
+    const auto& threads = most_threads_[part];
+    const auto at = threads.find(ranks);
+    return at != threads.end() && at->second * ranks > usable_cores() * job_nodes();
   }
 
   /// Sets the code with which the study ends, if it ends with this departure: a process that was killed is started
@@ -129,7 +146,7 @@ class conductor {
     code_ = 2;
   }
 
-  order order_for(errand what, std::size_t part, double estimated, const std::string& text) {
+  order order_for(errand what, std::size_t part, int ranks, double estimated, const std::string& text) {
     file_.read_on();
     order o;
     o.what = what;
@@ -139,6 +156,10 @@ class conductor {
     o.known = so_far().known();
     o.binding = options_.binding;
     o.store = store_.descriptor();
+    o.store_path = fmt::format("/proc/{}/fd/{}", ::getpid(), store_.descriptor());
+    o.store_host = environment_.host;
+    o.ranks = ranks;
+    o.crowded = is_crowded(part, ranks);
     o.where = {
         since_start_.seconds(), done_s_, estimated, std::max(estimate_.all_s(), done_s_ + estimated), shown_, text};
     return o;
@@ -151,7 +172,7 @@ class conductor {
       if (p.environment == environment_.environment && p.study == plan_.study) wanted.erase({p.threads, p.precision});
     if (wanted.empty()) return true;
     file_.open();  // the environment's row comes first
-    return carry_out(errand::peaks, 0, estimate_.peaks_s(), "the machine's peaks");
+    return carry_out(errand::peaks, 0, 1, estimate_.peaks_s(), "the machine's peaks");
   }
 
   void measure_part(std::size_t k, double shares) {
@@ -168,7 +189,9 @@ class conductor {
       return;
     }
     stopwatch clock;
-    if (!carry_out(errand::verify, k, verifying, "verifying " + name)) return;
+    for (const int ranks : ranks_[k])
+      if (!carry_out(errand::verify, k, ranks, verifying / static_cast<double>(ranks_[k].size()), "verifying " + name))
+        return;
     estimate_.verified(k, clock.lap());
     int crashes = 0;
     while (!so_far().done(part) && code_ == 0) {
@@ -199,7 +222,8 @@ class conductor {
     return wanted <= left() && (!more || elapsed + estimate_.round_s(k) <= budget);
   }
 
-  /// One round in all builds. False if it did not come to its end; then its rows are voided.
+  /// One round in all builds, each once for every number of ranks. False if it did not come to its end; then its rows
+  /// are voided.
   bool measure_round(std::size_t k) {
     const part_plan& part = plan_.parts[k];
     const int round = so_far().next_round();
@@ -208,12 +232,17 @@ class conductor {
     const double own_before = own_time();
     double workers_s = 0;
     stopwatch clock;
-    order o = order_for(errand::measure, k, estimate_.round_s(k), so_far().standing(part));
+    const std::vector<int>& ranks = ranks_[k];
+    order o = order_for(errand::measure, k, 1, estimate_.round_s(k), so_far().standing(part));
     o.round = round;
-    o.where.this_s /= static_cast<double>(options_.builds.size());
+    o.where.this_s /= static_cast<double>(options_.builds.size() * ranks.size());
     const std::size_t store_end = store_.end();
     std::uint64_t rows = 0;
-    for (const std::size_t build : shuffled_order(options_.builds.size(), part.request.seed, round, 0)) {
+    for (const std::size_t process :
+         shuffled_order(options_.builds.size() * ranks.size(), part.request.seed, round, 0)) {
+      const std::size_t build = process / ranks.size();
+      o.ranks = ranks[process % ranks.size()];
+      o.crowded = is_crowded(k, o.ranks);
       const departure end = launch(build, o);
       o.where.done_s += o.where.this_s;
       o.where.shown = shown_;
@@ -263,8 +292,8 @@ class conductor {
   std::string again() const { return fmt::format("{} --out {}", options_.again, shell_word(options_.out)); }
 
   void say_next(const std::string& what, const std::string& words) {
-    say(fmt::format("rows: {}\n{}:\n  {} {}", one_line(options_.out.string()), what, shell_word(options_.program),
-                    words));
+    say(fmt::format("rows: {}\n{}:\n  {}{} {}", one_line(options_.out.string()), what,
+                    words == again() ? options_.before : "", shell_word(options_.program), words));
   }
 
   void warn_of_disturbance() {
@@ -300,6 +329,8 @@ class conductor {
   const study_plan& plan_;
   const study_options& options_;
   const registry& all_;
+  std::vector<std::vector<int>> ranks_;           ///< by part: the numbers of ranks of its points
+  std::vector<std::map<int, int>> most_threads_;  ///< by part and number of ranks: the most threads of a rank
   std::string hash_;
   environment_row environment_;
   study_file file_;
@@ -318,10 +349,11 @@ int conduct(const study_plan& plan, const study_options& options, const registry
   check_plan(plan, all);
   note_interrupts();
   std::set<int> crowded;
-  const int cores = usable_cores();
+  const int cores = usable_cores() * job_nodes();
   for (const part_plan& part : plan.parts)
-    for (const int t : part.request.threads)
-      if (t > cores) crowded.insert(t);
+    for (const int n : part.request.ranks)
+      for (const int t : part.request.threads)
+        if (n * t > cores) crowded.insert(n * t);
   for (const int t : crowded) fmt::print("note: {} threads on {} cores\n", t, cores);
   if (const std::string note = limits_note(); !note.empty()) fmt::print("note: {}\n", note);
   return conductor(plan, options, all).run();

@@ -14,6 +14,7 @@ struct study_options {
   std::string binding = "cores_first";  ///< how threads are pinned (thread_binding)
   std::vector<launcher> builds;         ///< one per program that is compared; this one's first
   std::string program = "pairsum";      ///< this program, as a user calls it
+  std::string before{};                 ///< what started the job that it runs in
   std::string again{};                  ///< its words that start the study again, but for --out
 };
 

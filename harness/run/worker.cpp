@@ -15,11 +15,13 @@
 #include "harness/measure/memory.hpp"
 #include "harness/measure/worker_team.hpp"
 #include "harness/model/peaks.hpp"
+#include "harness/ranks/crew.hpp"
 #include "harness/rows/point_words.hpp"
 #include "harness/rows/reader.hpp"
 #include "harness/rows/writer.hpp"
 #include "harness/run/describe_backend.hpp"
 #include "harness/run/ranking.hpp"
+#include "harness/run/seats.hpp"
 #include "harness/run/world.hpp"
 #include "harness/self_test/self_test.hpp"
 #include "harness/terminal/interrupt.hpp"
@@ -44,7 +46,9 @@ class measured_part {
  public:
   measured_part(const order& o, const measuring& with) : request_(o.plan.parts[o.part].request) {
     std::map<std::pair<double, std::string>, std::shared_ptr<const world_particles>> particles;
-    for (const world_plan& points : expand(request_, with.all)) {
+    for (world_plan points : expand(request_, with.all)) {
+      std::erase_if(points, [&](const point& p) { return p.ranks != o.ranks; });
+      if (points.empty()) continue;
       auto& shared = particles[{points.front().dx, points.front().state}];
       if (!shared) shared = std::make_shared<world_particles>(request_, points.front());
       worlds_.push_back(std::make_unique<world>(with, request_, points.front(), shared));
@@ -71,6 +75,14 @@ class measured_part {
   std::vector<place_of> points_;
 };
 
+/// The store of references and verdicts. Ranks do not inherit it: the first opens it anew where it runs on the host of
+/// the process that has it.
+std::unique_ptr<shared_store> store_of(const order& o) {
+  if (o.ranks == 1) return o.store >= 0 ? std::make_unique<shared_store>(o.store) : nullptr;
+  if (!here().is_first() || o.store_host != describe_machine().host) return nullptr;
+  return shared_store::open(o.store_path);
+}
+
 /// One order under way.
 class errand_run {
  public:
@@ -78,8 +90,14 @@ class errand_run {
       : order_(o),
         binding_(o.binding),
         environment_(describe_environment(o.plan.study, binding_.description(), hardware_.description())),
-        store_(o.store >= 0 ? std::make_unique<shared_store>(o.store) : nullptr),
-        with_{all, binding_, hardware_, store_.get(), environment_.environment, largest_cache(environment_)},
+        store_(store_of(o)),
+        with_{all,
+              binding_,
+              hardware_,
+              store_.get(),
+              environment_.environment,
+              largest_cache(environment_),
+              seats_of(binding_)},
         progress_(o.where, o.plan.budget_s) {}
 
   int verify() {
@@ -100,6 +118,8 @@ class errand_run {
       if (!r.error.empty())
         note(fmt::format("{} {}: {}", whole_label(p.what), r.bad_state ? "gets no time" : "FAILED its verification",
                          r.error));
+      if (!r.untimed.empty() && r.error.empty())
+        note(fmt::format("{} gets no times: {}", whole_label(p.what), r.untimed));
       std::uint64_t lost = 0;
       for (const step_result& step : r.steps) lost += step.lost;
       if (lost > 0 && r.error.empty())
@@ -171,7 +191,7 @@ class errand_run {
   /// set against it: if the plan wants peaks, the multiply-adds of every number of threads and precision.
   std::vector<threads_and_precision> paces_of(const measured_part& part) const {
     std::set<threads_and_precision> wanted;
-    if (order_.plan.peaks)
+    if (order_.plan.peaks && order_.ranks == 1)
       for (const auto& p : part.points()) wanted.emplace(p.what.threads, p.what.precision);
     return {wanted.begin(), wanted.end()};
   }
@@ -199,12 +219,14 @@ class errand_run {
 
   /// The rows file, once the input has proved right; with the environment row if it is not there.
   void open() {
+    if (!here().is_first()) return;
     writer_ = std::make_unique<row_writer>(order_.out, order_.known);
     if (!writer_->knows(environment_.environment)) writer_->write(environment_);
   }
 
   /// A row for the particles of every world that no case makes, if there is none.
   void describe_particles(measured_part& part) {
+    if (!here().is_first()) return;
     for (const auto& w : part.worlds()) {
       const particles_of_request& made = w->particles();
       if (made.hash.empty() || writer_->knows_particles(made.hash)) continue;
@@ -214,6 +236,7 @@ class errand_run {
 
   /// A row for every backend of the part that has none there.
   void describe_backends(const measured_part& part) {
+    if (!here().is_first()) return;
     for (const auto& p : part.points()) {
       if (writer_->knows(environment_.environment, p.what.backend)) continue;
       backend_row b = describe_backend(with_.all.find_backend(p.what.backend).traits);
@@ -239,9 +262,10 @@ class errand_run {
   }
 
   void write(const point& p, const world::result& r, int slot, int repetition) {
+    if (!r.error.empty()) failed_ = failed_ || !must_fail(order_.plan, p.backend);
+    if (!here().is_first()) return;
     sample s = blank(p, slot, repetition);
     if (!r.error.empty()) {  // a backend that is wrong gets no time
-      failed_ = failed_ || !must_fail(order_.plan, p.backend);
       s.error = one_line(r.error);
       writer_->write(s);
       return;
@@ -250,7 +274,11 @@ class errand_run {
     for (std::size_t k = 0; k < r.steps.size(); ++k) {
       const step_result& step = r.steps[k];
       s.step = static_cast<int>(k) + 1;
-      s.phases = step.times;
+      if (r.untimed.empty())
+        s.phases = step.times;
+      else
+        s.untimed = one_line(r.untimed);
+      s.ranks = step.ranks;
       s.threads_busy_s = step.threads_busy_s;
       s.barrier_wait_s = step.barrier_wait_s;
       s.counters = step.counted;
@@ -263,7 +291,8 @@ class errand_run {
       writer_->write(s);
       sum += step.times.sum_s.value_or(0);
     }
-    last_ = fmt::format("{}: {:.4g} ms", label(p), 1e3 * sum / static_cast<double>(r.steps.size()));
+    last_ = r.untimed.empty() ? fmt::format("{}: {:.4g} ms", label(p), 1e3 * sum / static_cast<double>(r.steps.size()))
+                              : label(p) + ": no times";
   }
 
   void advance(double share) { done_ += share; }

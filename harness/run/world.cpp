@@ -16,14 +16,27 @@
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
 #include "harness/model/cost.hpp"
+#include "harness/ranks/crew.hpp"
 #include "harness/rows/add_thread_times.hpp"
 #include "harness/rows/threads_worked.hpp"
 #include "harness/run/point_setup.hpp"
+#include "harness/run/step_of_ranks.hpp"
 #include "harness/terminal/interrupt.hpp"
 
 namespace pairsum::harness {
 
-world_particles::world_particles(const run_request& r, const point& any) : made(initial_of(r, any.dx, any.state)) {
+namespace {
+
+/// The particles of a request, whose files each rank finds made.
+particles_of_request made_in_turn(const run_request& r, const point& any) {
+  particles_of_request made;
+  here().in_turn([&] { made = initial_of(r, any.dx, any.state); });
+  return made;
+}
+
+}  // namespace
+
+world_particles::world_particles(const run_request& r, const point& any) : made(made_in_turn(r, any)) {
   if (r.outside == "drop") dropped = drop_outside(made.initial.particles, setup_of(initial));
   for (const std::string& order : r.orders) orders[order] = memory_order(order, initial, r.seed);
 }
@@ -43,17 +56,19 @@ std::string world::key() const {
 }
 
 void world::make_reference() {
-  const worker_team workers(runtime::omp, untimed_threads(usable_cores()), &with_.binding);
+  // Ranks that wait for the first need their cores.
+  const int cores = std::max(1, usable_cores() - here().size() + 1);
+  const worker_team workers(runtime::omp, untimed_threads(cores), &with_.binding);
   verifier_ = std::make_unique<verifier>(with_.all, setup_of_point(any_, particles_->initial),
                                          particles_->initial.particles, workers.get(), with_.store, key());
   recall_work();
 }
 
 void world::recall_work() {
-  if (with_.store == nullptr) return;
-  const auto bytes = with_.store->load(key() + "/work");
-  if (!bytes) return;
-  const nlohmann::json counted = nlohmann::json::parse(*bytes);  // items() does not keep it
+  const auto bytes = with_.store == nullptr ? std::nullopt : with_.store->load(key() + "/work");
+  const std::string kept = here().told(bytes.value_or(""));
+  if (kept.empty()) return;
+  const nlohmann::json counted = nlohmann::json::parse(kept);  // items() does not keep it
   for (const auto& item : counted.items()) work_[item.key()] = item.value().get<work_row>();
 }
 
@@ -71,7 +86,8 @@ void world::complete(point& p) const {
 }
 
 work_row world::work_of(const point& p, summation& s) {
-  const auto [at, is_new] = work_.try_emplace(fmt::format("{} {} {} {} {}", p.backend, p.grid, p.M, p.block, p.isa));
+  const auto [at, is_new] =
+      work_.try_emplace(fmt::format("{} {} {} {} {} {} {}", p.backend, p.grid, p.M, p.block, p.isa, p.ranks, p.cut));
   if (is_new) {
     const work_counts w = s.count_work();
     if (!unfolded_) unfolded_ = s.count_unfolded_tests();
@@ -153,9 +169,12 @@ std::optional<std::uint64_t> growth(std::uint64_t before, const std::optional<st
 
 world::result world::measure(const point& p, int steps) {
   result out;
-  const auto summation = with_.all.make_summation(setup_of_point(p, particles_->initial));
+  const auto summation = here().share(with_.all.make_summation(setup_of_point(p, particles_->initial)), p.cut);
   const runtime kind = summation->traits().threads;
-  const worker_team workers(kind, p.threads, &with_.binding);
+  const placement places = place(with_.seats, p.threads);
+  if (here().size() > 1) out.untimed = places.why_untimed;
+  const worker_team workers(kind, p.threads, &with_.binding,
+                            static_cast<int>(places.first[static_cast<std::size_t>(here().rank())]));
   const team t = workers.get().with(parse_granularity(p.granularity, kind));
   const integrator_entry& integrator = find_integrator(p.integrator);
   reset_peak_rss();
@@ -169,6 +188,7 @@ world::result world::measure(const point& p, int steps) {
     }
     step_result now;
     phases& times = now.times;
+    step_of_ranks together(with_.seats, places, p.threads);
     double checking = 0;
     int evaluations_of_step = 0;
     const auto evaluate = [&] {
@@ -176,6 +196,8 @@ world::result world::measure(const point& p, int steps) {
       pass_times passes(p.threads);
       summation->observe(&passes);
       stopwatch clock;
+      here().barrier();
+      checking += clock.lap();
       summation->index(t);
       times.index_s = times.index_s.value_or(0) + clock.lap();
       const auto held_before = evaluations == 0 ? heap_bytes() : std::nullopt;
@@ -187,12 +209,16 @@ world::result world::measure(const point& p, int steps) {
       with_.hardware.start();
       checking += clock.lap();
       summation->sum(t);
-      times.sum_s = times.sum_s.value_or(0) + clock.lap();
+      const double sum_s = clock.lap();
+      times.sum_s = times.sum_s.value_or(0) + sum_s;
       add_to(now.counted, with_.hardware.stop());
       checking += clock.lap();
+      here().barrier();
+      const double waiting_s = clock.lap();
       summation->reduce(t);
       times.reduce_s = times.reduce_s.value_or(0) + clock.lap();
       if (held_before) out.workspace_bytes = growth(*held_before, heap_bytes());
+      together.add(*summation, sum_s, waiting_s);
       if (passes.any()) {
         add_to(now.threads_busy_s, passes.busy());
         add_to(now.barrier_wait_s, passes.waiting());
@@ -211,12 +237,19 @@ world::result world::measure(const point& p, int steps) {
     stopwatch whole;
     integrator.step(*summation, request_.dt, particles_->initial.gravity, evaluate, t);
     times.total_s = whole.lap() - checking;
-    const double evaluated = *times.index_s + *times.prepare_s + *times.zero_s + *times.sum_s + *times.reduce_s;
+    const double evaluated =
+        *times.index_s + *times.prepare_s + *times.zero_s + *times.sum_s + *times.reduce_s + together.waiting_s();
     times.integrate_s = std::max(0.0, *times.total_s - evaluated);
+    now.ranks = together.end(times);
     const std::size_t lost_before = std::exchange(lost, summation->lost());
     now.lost = lost - lost_before;
     if (kind == runtime::serial) now.threads_worked = 1;
     if (now.threads_busy_s) now.threads_worked = threads_worked(*now.threads_busy_s);
+    if (now.ranks) {
+      now.threads_busy_s = now.barrier_wait_s = std::nullopt;  // which are of one process
+      now.threads_worked = sum_of_ranks(now.threads_worked);
+      now.counted = sum_of_ranks(now.counted);
+    }
     if (!now.checked.ok) {
       out.bad_state = !now.checked.finite && evaluations > 1;  // what is wrong at the start is no matter of dt
       out.error = now.checked.error + (out.bad_state ? ": " + too_large(request_.dt) : "");
@@ -224,6 +257,8 @@ world::result world::measure(const point& p, int steps) {
     if (!out.error.empty()) out.error = fmt::format("step {}: {}", step, out.error);
     out.steps.push_back(std::move(now));
   }
+  out.peak_rss_bytes = largest_of_ranks(out.peak_rss_bytes);
+  out.workspace_bytes = largest_of_ranks(out.workspace_bytes);
   return out;
 }
 

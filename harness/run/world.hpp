@@ -10,6 +10,7 @@
 #include "harness/measure/binding.hpp"
 #include "harness/measure/counters.hpp"
 #include "harness/plan/plan.hpp"
+#include "harness/ranks/placement.hpp"
 #include "harness/verify/verifier.hpp"
 
 namespace pairsum::harness {
@@ -21,6 +22,7 @@ struct step_result {
   std::optional<counters_row> counted;
   std::uint64_t lost = 0;                       ///< particles found outside Omega
   std::optional<std::uint64_t> threads_worked;  ///< see threads_worked()
+  std::optional<std::vector<rank_row>> ranks;   ///< of a point with several
   verifier::outcome checked;
 };
 
@@ -44,12 +46,14 @@ struct measuring {
   shared_store* store = nullptr;  ///< of references and verdicts, from and for other processes
   std::string build;              ///< tells the store's entries of different programs apart
   std::uint64_t last_level_cache_bytes = 0;
+  std::vector<rank_seat> seats;  ///< of all ranks
 };
 
 /// The particles of one world and their reference, and the measurement of any backend on them.
 class world {
  public:
-  /// Checks the particles. `any` is one of the world's points.
+  /// Checks the particles. With several ranks all of them make it, and call the same functions. `any` is one of the
+  /// world's points.
   world(const measuring& with, const run_request& r, const point& any,
         std::shared_ptr<const world_particles> particles);
 
@@ -69,6 +73,7 @@ class world {
     bool interrupted = false;                      ///< the steps after an interrupt were not made
     std::string error;                             ///< set if a step was wrong; steps after it were not made
     bool bad_state = false;                        ///< the error is of the state, not of the sum
+    std::string untimed;                           ///< why its times are no times; empty if they are
   };
 
   /// Loads the initial state and makes the steps. Each step's rates are verified before its times are handed out; a

@@ -18,7 +18,9 @@
 #include "harness/measure/stopwatch.hpp"
 #include "harness/measure/worker_team.hpp"
 #include "harness/plan/levels.hpp"
+#include "harness/ranks/crew.hpp"
 #include "harness/run/point_setup.hpp"
+#include "harness/run/seats.hpp"
 #include "harness/simulate/log.hpp"
 #include "harness/terminal/interrupt.hpp"
 #include "harness/terminal/progress.hpp"
@@ -81,6 +83,10 @@ point only_point(const run_request& r, const registry& all) {
 std::string settings_of(const simulate_request& r, const std::string& particles) {
   nlohmann::json j = levels_json(r.levels);
   for (const char* const key : {"repetitions", "steps", "dt", "order", "granularity", "threads"}) j.erase(key);
+  if (r.levels.ranks == std::vector<int>{1}) {  // as in folders that know no ranks
+    j.erase("ranks");
+    j.erase("cut");
+  }
   j["dt"] = r.rules.dt;
   j["cfl"] = r.rules.cfl;
   j["every"] = r.every;
@@ -151,15 +157,22 @@ simulate_result simulate(const simulate_request& asked, const moment_reader& at)
   const bool keeps = !asked.snapshots.empty();
   if (const std::string why = why_no_moment_files(); keeps && !why.empty()) throw error(why);
   const kept_files files{asked.snapshots};
+  const crew& all_ranks = here();
+  if (asked.levels.ranks != std::vector<int>{all_ranks.size()})
+    throw error(fmt::format("this process is one of {} ranks, and {} are asked for", all_ranks.size(),
+                            fmt::join(asked.levels.ranks, ",")));
+  const bool writes = keeps && all_ranks.is_first();
   std::optional<saved_moment> saved;
-  if (keeps && !asked.fresh && fs::exists(files.checkpoint)) saved = read_moment(files.checkpoint);
+  const bool goes_on = keeps && !asked.fresh && fs::exists(files.checkpoint);
+  if (!all_ranks.told(goes_on ? "it goes on" : "").empty()) saved = read_moment(files.checkpoint);
   simulate_request r = asked;
   if (saved) take_over(r, saved->settings);
   r = complete(r);
   const registry& all = simulate_registry();
   simulate_result result;
   result.what = only_point(r.levels, all);
-  const particles_of_request start = initial_of(r.levels, r.levels.dx.front(), r.levels.states.front());
+  particles_of_request start;
+  all_ranks.in_turn([&] { start = initial_of(r.levels, r.levels.dx.front(), r.levels.states.front()); });
   const initial_condition& domain = start.initial;
   const std::string settings = settings_of(r, start.hash);
   moment from = start_of(domain.particles);
@@ -167,28 +180,29 @@ simulate_result simulate(const simulate_request& asked, const moment_reader& at)
     check_settings(files.folder, saved->settings, settings);
     from = std::move(saved->what);
     result.resumed_from = from.t;
-  } else if (keeps) {  // the request has proved right
+  } else if (writes) {  // the request has proved right
     make_folder(files.folder);
     asked.fresh ? files.remove() : files.check_free();
     write_moment(files.checkpoint, from, start, settings);  // from now on the folder says whose it is
   }
   std::optional<simulation_log> log;
-  if (keeps) log.emplace(files.log, from.step);
+  if (writes) log.emplace(files.log, from.step);
   std::vector<moment_in_series> series;
-  if (keeps)
+  if (writes)
     for (const fs::path& file : files.snapshots())
       if (moment_in_series one = series_entry(file); one.t < from.t) series.push_back(std::move(one));
   std::ranges::sort(series, {}, &moment_in_series::t);
 
   const thread_binding binding(r.binding);
   const point& p = result.what;
-  auto sum = all.make_summation(setup_of_point(p, domain));
+  auto sum = all_ranks.share(all.make_summation(setup_of_point(p, domain)), p.cut);
   const runtime kind = sum->traits().threads;
-  const worker_team workers(kind, p.threads, &binding);
+  const std::size_t first_unit = place(seats_of(binding), p.threads).first[static_cast<std::size_t>(all_ranks.rank())];
+  const worker_team workers(kind, p.threads, &binding, static_cast<int>(first_unit));
   const team t = workers.get().with(parse_granularity(p.granularity, kind));
   const std::uint64_t first_step = from.step;
   every snapshots(r.every, from.t), checkpoints(r.checkpoint, from.t), logs(r.log, from.t);
-  simulation run(std::move(sum), domain, std::move(from), r.rules, t);
+  simulation run(std::move(sum), domain, std::move(from), r.rules, t, all_ranks);
   progress shown(r.until);
 
   const auto balance_at = [&](const moment& m) { return balance_of(m.particles, domain.gravity, domain.eos); };
@@ -202,7 +216,7 @@ simulate_result simulate(const simulate_request& asked, const moment_reader& at)
     const balance b = balance_at(m);
     if (!start_energy) start_energy = b.energy();
     if (snapshot || ends) at(m, b, *start_energy);
-    if (!keeps) return;
+    if (!writes) return;
     log->flush();
     if (snapshot) {
       series.push_back({snapshot_file(files.folder, m.t, r.every), m.t, m.particles.size()});
@@ -216,7 +230,7 @@ simulate_result simulate(const simulate_request& asked, const moment_reader& at)
     record(m);
     keep(m, true, false);
   }
-  note_interrupts();
+  if (all_ranks.size() == 1) note_interrupts();  // ranks of a job end at once, so that none waits for another
   stopwatch clock;
   double stepping = 0;
   while (run.t() < r.until && !result.interrupted) {

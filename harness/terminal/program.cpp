@@ -26,12 +26,6 @@ void open_closed_descriptors() {
     if (::fcntl(descriptor, F_GETFD) < 0 && ::open("/dev/null", O_RDWR) != descriptor) ::_exit(2);
 }
 
-/// Whatever happens to the message: there is nobody else to tell.
-void complain(std::string_view what) {
-  const std::string line = fmt::format("{}: {}\n", program, one_line(what));
-  std::fwrite(line.data(), 1, line.size(), stderr);
-}
-
 void on_exit_call(int code, void*) {
   if (ended) return;
   complain(fmt::format("a library ended it with code {} before its work was done", code));
@@ -86,6 +80,11 @@ std::size_t shown_bytes(std::string_view text) {
 }
 
 }  // namespace
+
+void complain(std::string_view what) {
+  const std::string line = fmt::format("{}: {}\n", program, one_line(what));
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
 
 int as_program(const char* name, const std::function<int()>& work) {
   open_closed_descriptors();

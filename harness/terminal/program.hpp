@@ -13,6 +13,9 @@ namespace pairsum::harness {
 /// none of ours.
 int as_program(const char* name, const std::function<int()>& work);
 
+/// One line on stderr that names the program. Whatever happens to it: there is nobody else to tell.
+void complain(std::string_view what);
+
 /// The text for a message: one line without control characters (`\n`, `\x1b` stand for them) or bytes that are no
 /// UTF-8, long words and the whole cut.
 std::string one_line(std::string_view text);

@@ -108,6 +108,27 @@ std::string pack(const verdict_map& known) {
   return std::move(p.bytes);
 }
 
+std::string pack(const verdict& v) {
+  packer p;
+  p.put(v.ok);
+  p.put(v.max_rel_err);
+  p.put(v.bound);
+  p.put(v.error);
+  p.put(v.finite);
+  return std::move(p.bytes);
+}
+
+verdict unpack_verdict(const std::string& bytes) {
+  unpacker u(bytes);
+  verdict v;
+  u.get(v.ok);
+  u.get(v.max_rel_err);
+  u.get(v.bound);
+  u.get(v.error);
+  u.get(v.finite);
+  return v;
+}
+
 verdict_map unpack_verdicts(const std::string& bytes) {
   unpacker u(bytes);
   verdict_map known;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,8 @@ class shared_store {
   shared_store();
   /// The one that another process made and left open as this file descriptor; throws pairsum::error if it is none.
   explicit shared_store(int descriptor);
+  /// The one that another process has open at this path of /proc; none if there is no store.
+  static std::unique_ptr<shared_store> open(const std::string& path);
   ~shared_store();
   shared_store(const shared_store&) = delete;
   shared_store& operator=(const shared_store&) = delete;

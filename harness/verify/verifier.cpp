@@ -4,10 +4,14 @@
 
 #include <pairsum/core/error.hpp>
 #include <pairsum/core/random.hpp>
+#include "harness/ranks/crew.hpp"
 #include "harness/verify/pack.hpp"
 
 namespace pairsum::harness {
 namespace {
+
+/// Before verdicts that the first rank has from a store.
+const std::string kept_word = "kept ";
 
 /// The expectation as if it were a backend's result, for checking one reference against another.
 rate_table as_rates(const expectation& e, std::size_t rows) {
@@ -22,11 +26,13 @@ rate_table as_rates(const expectation& e, std::size_t rows) {
 verifier::verifier(const registry& r, const setup& s, const particle_table& initial, const team& t, shared_store* store,
                    std::string key)
     : reference_(r.make_reference(s)), store_(store), key_(std::move(key)) {
-  if (store_ != nullptr)
-    if (const auto verdicts = store_->load(key_ + "/verdicts")) {  // saved after the reference
-      known_ = unpack_verdicts(*verdicts);
-      return;
-    }
+  const auto verdicts =
+      store_ == nullptr ? std::nullopt : store_->load(key_ + "/verdicts");  // saved after the reference
+  if (const std::string kept = here().told(verdicts ? kept_word + *verdicts : ""); !kept.empty()) {
+    known_ = unpack_verdicts(kept.substr(kept_word.size()));
+    return;
+  }
+  if (!here().is_first()) return;
   expected_ = reference_of(initial, t);
   if (store_ == nullptr) return;
   store_->save(key_ + "/reference", pack(*expected_));
@@ -69,14 +75,21 @@ expectation verifier::expect_now(const particle_table& p, int evaluation, const 
   return sampled(p, later_samples, static_cast<std::uint64_t>(evaluation), t);
 }
 
+verdict verifier::judge(summation& s, const moment& when, const team& t) {
+  const rate_table rates = s.rates();
+  const particle_table now = when.evaluation == 1 ? particle_table(1) : s.snapshot();
+  verdict v;
+  if (here().is_first())
+    v = compare(rates, when.evaluation == 1 ? initial_expectation() : expect_now(now, when.evaluation, t));
+  return here().size() == 1 ? v : unpack_verdict(here().told(pack(v)));
+}
+
 verifier::outcome verifier::check(summation& s, const moment& when, const team& t) {
   outcome o;
   o.fingerprint = s.fingerprint();
   const auto seen = known_.find({when, o.fingerprint});
   o.known = seen != known_.end();
-  const verdict v = o.known                ? seen->second
-                    : when.evaluation == 1 ? compare(s.rates(), initial_expectation())
-                                           : compare(s.rates(), expect_now(s.snapshot(), when.evaluation, t));
+  const verdict v = o.known ? seen->second : judge(s, when, t);
   o.ok = v.ok;
   o.finite = v.finite;
   o.max_rel_err = v.max_rel_err;

@@ -47,10 +47,12 @@ class verifier {
   /// Checks the rates of the evaluation that was made last.
   outcome check(summation& s, const moment& when, const team& t);
 
-  /// The reference of the initial state.
+  /// The reference of the initial state; of several ranks the first alone has it.
   const expectation& initial_expectation();
 
  private:
+  /// What the first rank finds; all ranks hand it their part of the rates.
+  verdict judge(summation& s, const moment& when, const team& t);
   expectation reference_of(const particle_table& initial, const team& t) const;
   expectation sampled(const particle_table& p, std::size_t n, std::uint64_t seed, const team& t) const;
 

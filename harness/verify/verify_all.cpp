@@ -7,6 +7,7 @@
 
 #include <pairsum/sum/setup_of.hpp>
 #include "harness/measure/worker_team.hpp"
+#include "harness/ranks/crew.hpp"
 #include "harness/verify/verifier.hpp"
 
 namespace pairsum::harness {
@@ -18,10 +19,10 @@ std::string compare_counts(const work_counts& w, const expectation& e) {
                      w.pairs_fluid_boundary, e.pairs_fluid_fluid, e.pairs_fluid_boundary);
 }
 
-verify_line check_one(const registry& r, const initial_condition& c, const setup& s, int threads, verifier& oracle,
-                      std::map<std::string, std::uint64_t>& bits) {
-  verify_line line{s, threads, true, 0, {}};
-  const auto summation = r.make_summation(s);
+verify_line check_one(const registry& r, const initial_condition& c, const setup& s, int threads,
+                      const std::string& cut, verifier& oracle, std::map<std::string, std::uint64_t>& bits) {
+  verify_line line{s, threads, cut, true, 0, {}};
+  const auto summation = here().share(r.make_summation(s), cut);
   const worker_team workers(summation->traits().threads, threads);
   summation->load(c.particles, {});
   summation->evaluate(workers.get());
@@ -29,10 +30,12 @@ verify_line check_one(const registry& r, const initial_condition& c, const setup
   line.ok = o.ok;
   line.error = o.error;
   if (o.bound > 0) line.share = o.max_rel_err / o.bound;
-  const std::string counts = compare_counts(summation->count_work(), oracle.initial_expectation());
+  const work_counts counted = summation->count_work();
+  const std::string counts =
+      here().told(here().is_first() ? compare_counts(counted, oracle.initial_expectation()) : "");
   if (line.ok && !counts.empty()) line.error = counts;
   const auto [known, is_new] =
-      bits.emplace(fmt::format("{} {} {} {} {}", s.backend, s.grid, s.M, s.isa, s.block), o.fingerprint);
+      bits.emplace(fmt::format("{} {} {} {} {} {}", s.backend, s.grid, s.M, s.isa, s.block, cut), o.fingerprint);
   if (line.error.empty() && summation->traits().deterministic && !is_new && known->second != o.fingerprint)
     line.error = "claims equal bits for every number of threads, but they differ";
   line.ok = line.error.empty();
@@ -60,7 +63,7 @@ bool verify_formula(const registry& r, const initial_condition& c, const std::ve
   verifier oracle(r, in_world(sums.front().words, c), c.particles, all.get());
   std::map<std::string, std::uint64_t> bits;
   for (const verify_sum& sum : sums) {
-    const verify_line line = check_one(r, c, in_world(sum.words, c), sum.threads, oracle, bits);
+    const verify_line line = check_one(r, c, in_world(sum.words, c), sum.threads, sum.cut, oracle, bits);
     all_ok = all_ok && line.ok;
     report(line);
   }

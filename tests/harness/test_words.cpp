@@ -21,6 +21,20 @@ TEST(words, lists_ranges_and_all) {
   EXPECT_EQ(parse_numbers("--dx", "0.02,3e-2"), (std::vector<double>{0.02, 0.03}));
 }
 
+TEST(words, threads_of_all_ranks_are_shared) {
+  run_request r;
+  ASSERT_TRUE(read_level(r, "threads", "1,cores/ranks,2", 6));
+  EXPECT_EQ(r.threads, (std::vector<int>{1, 2}));
+  EXPECT_EQ(r.shared_threads, (std::vector<int>{6}));
+  EXPECT_EQ(levels_json(r)["threads"], nlohmann::json({1, 2, "6/ranks"}));
+  run_request same;
+  ASSERT_TRUE(read_level(same, "threads", levels_json(r)["threads"], 2));  // on another machine
+  EXPECT_EQ(same.threads, r.threads);
+  EXPECT_EQ(same.shared_threads, r.shared_threads);
+  EXPECT_THROW(read_level(r, "threads", "x/ranks", 6), error);
+  EXPECT_THROW(read_level(r, "threads", "/ranks", 6), error);
+}
+
 TEST(words, what_is_no_number_is_named_with_its_option) {
   for (const char* bad : {"x", "6;7", "6,", "", "7..5", "1.5", "99999999999999", "5.."}) {
     try {

@@ -118,6 +118,28 @@ inline sample failed() {
   return s;
 }
 
+/// Of two ranks.
+inline sample of_ranks() {
+  sample s = measured();
+  s.point.threads = 1;
+  s.point.ranks = 2;
+  s.point.cut = "once";
+  s.threads_busy_s.reset();
+  s.barrier_wait_s.reset();
+  s.ranks = {{"node", "0", 600000, 5000, 500000, 17, 6, 0.25, 0.0, {1, 4000}, {2, 300}, {3, 200}, {4, 100}},
+             {"node", "1", 400000, 6000, 600000, 18, 7, 0.125, 0.5, {5, 40}, {6, 30}, {7, 20}, {8, 10}}};
+  return s;
+}
+
+/// Of as many, on too few cores.
+inline sample untimed() {
+  sample s = of_ranks();
+  s.phases.reset();
+  for (rank_row& r : *s.ranks) r.busy_s = r.waiting_s = std::nullopt;
+  s.untimed = "2 ranks with 1 thread each on 1 core of node";
+  return s;
+}
+
 inline peak_row peak() {
   return peak_row{"talk", "2026-11-22T15:30:00.5Z", "0123456789abcdef", 2, "double", 1.5e10, 9.5e10};
 }

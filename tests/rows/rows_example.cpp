@@ -20,9 +20,11 @@ int main(int argc, char** argv) {
       writer.write(example::particles());
       writer.write(example::measured());
       writer.write(example::of_files());
+      writer.write(example::of_ranks());
+      writer.write(example::untimed());
       writer.write(example::failed());
       writer.write(example::pace());
-      writer.write(example::closing(3));
+      writer.write(example::closing(5));
       writer.write(example::ended());
       writer.write(example::voided());
       return 0;

@@ -24,6 +24,8 @@ T round_trip(const T& value) {
 TEST(row, every_kind_survives_a_round_trip) {
   EXPECT_EQ(round_trip(example::measured()), example::measured());
   EXPECT_EQ(round_trip(example::failed()), example::failed());
+  EXPECT_EQ(round_trip(example::of_ranks()), example::of_ranks());
+  EXPECT_EQ(round_trip(example::untimed()), example::untimed());
   EXPECT_EQ(round_trip(example::environment()), example::environment());
   EXPECT_EQ(round_trip(example::backend()), example::backend());
   EXPECT_EQ(round_trip(example::particles()), example::particles());
@@ -44,6 +46,32 @@ TEST(row, every_kind_survives_a_round_trip) {
   EXPECT_EQ(round_trip(plain), plain);
   plain.self_test.reset();
   EXPECT_EQ(round_trip(plain), plain);
+}
+
+TEST(row, one_rank_is_what_older_rows_mean) {
+  json j = json::parse(format_row(example::measured()));
+  EXPECT_EQ(j["point"]["ranks"], 1);
+  EXPECT_FALSE(j["point"].contains("cut"));
+  j["point"].erase("ranks");
+  EXPECT_EQ(std::get<sample>(parse_row(j)), example::measured());
+}
+
+TEST(row, wrong_ranks_are_named) {
+  const auto said = [](auto change) {
+    json j = json::parse(format_row(example::of_ranks()));
+    change(j);
+    return message_of([&] { parse_row(j); });
+  };
+  EXPECT_EQ(said([](json&) {}), "");
+  EXPECT_NE(said([](json& j) { j["ranks"].erase(0); }).find("\"ranks\" should be a list of 2 ranks"),
+            std::string::npos);
+  EXPECT_NE(said([](json& j) { j["ranks"] = 2; }).find("\"ranks\" should be a list of objects"), std::string::npos);
+  EXPECT_NE(said([](json& j) { j["ranks"][1]["own"] = -1; }).find("\"ranks[1].own\""), std::string::npos);
+  EXPECT_NE(said([](json& j) { j["ranks"][0]["halo"].erase("bytes"); }).find("\"ranks[0].halo.bytes\""),
+            std::string::npos);
+  EXPECT_NE(said([](json& j) { j["ranks"][0]["more"] = 1; }).find("more"), std::string::npos);
+  EXPECT_NE(said([](json& j) { j["point"]["ranks"] = 0; }).find("\"point.ranks\""), std::string::npos);
+  EXPECT_NE(said([](json& j) { j["untimed"] = "why"; }).find("null in a row with \"untimed\""), std::string::npos);
 }
 
 TEST(row, nested_structs_survive_a_round_trip) {
