@@ -18,6 +18,7 @@ try:
     from .model import models, shares, thread_times  # noqa: F401
     from .reports import Report, report  # noqa: F401
     from .rows import PHASES, ResultsError  # noqa: F401
+    from .scaling import scaling  # noqa: F401
     from .self_tests import self_test  # noqa: F401
 except ModuleNotFoundError as problem:
     if sys.argv[:1] != ["-m"]:  # imported by a program of somebody's own

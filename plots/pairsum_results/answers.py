@@ -147,6 +147,8 @@ def _command(p: Any, of_files: dict[str, str], **more: Any) -> str:
         given["isa"] = p["isa"]
     if one and p["block"] not in ("none", "auto"):
         given["block"] = p["block"]
+    if p["ranks"] > 1:
+        given |= {"ranks": p["ranks"], "cut": p["cut"]}
     given = {name: value for name, value in given.items() if pd.notna(value)} | more
     return "pairsum run" + "".join(f" --{name} {value:.10g}" if isinstance(value, float) else f" --{name} {value}"
                                    for name, value in given.items())

@@ -143,6 +143,7 @@ def worlds(results: Results) -> pd.Series:
     for k, one in series.iterrows():
         text = f"{one['case']} {one['dim']}D" + (f", H = {reach[k]:.3g} dx" if abs(reach[k] - 2) > 0.005 else "")
         text += "".join(f", {one[name]}" for name in told)
+        text += f", {one['ranks']} ranks {one['cut']}" if one["ranks"] > 1 else ""
         like = (series["case"] == one["case"]) & (series["dim"] == one["dim"]) & ((reach - reach[k]).abs() <= 0.005)
         words.append(text + (f", dx = {one['dx']:g}" if (series["dx"][like] != one["dx"]).any() else ""))
     return pd.Series(words, series.index, dtype=object)
@@ -185,7 +186,7 @@ def _contrast(results: Results, here: pd.DataFrame, ladders: pd.DataFrame) -> tu
     a = series.loc[here["series"].iloc[0]]
     base = ladders.drop_duplicates("series").set_index("series")["base_backend"]
     others = series.loc[base.index[base == here["base_backend"].iloc[0]]]
-    words = ["study", "build", "state", "order", "precision", "interaction", "smoothing", "integrator", "dt"]
+    words = ["study", "build", "state", "order", "precision", "interaction", "smoothing", "integrator", "dt", "ranks", "cut"]
     others = others[(others[words] == a[words]).all(axis=1)]
     case, dim = others["case"] == a["case"], others["dim"] == a["dim"]
     like = (others["reach"] - a["reach"]).abs() < 0.005 * others["reach"]

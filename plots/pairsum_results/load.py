@@ -11,7 +11,8 @@ from .rows import PHASES, ResultsError, read
 
 #: The columns that tell points apart, in the order in which points are listed.
 POINT = ["case", "state", "dx", "H", "n_fluid", "n_boundary", "order", "dim", "precision", "interaction", "smoothing",
-         "integrator", "dt", "particles", "backend", "grid", "isa", "block", "granularity", "M", "threads"]
+         "integrator", "dt", "particles", "ranks", "cut", "backend", "grid", "isa", "block", "granularity", "M",
+         "threads"]
 #: Those in which points of a series may differ.
 PLACE = ["backend", "grid", "isa", "block", "granularity", "M", "threads"]
 COMMON = [name for name in POINT if name not in PLACE]
@@ -42,6 +43,7 @@ class Results:
     peaks, paces  what the machine does at best; what it did in a round
     closed        the round rows of finished rounds
     failed        points with rows that did not pass the verification, which are in no other place
+    untimed       verified rows of points that were counted and not timed, as `samples` has others; `untimed`: why
     caveats       what to keep in mind, as texts
     """
     sources: list[str]
@@ -56,6 +58,7 @@ class Results:
     paces: pd.DataFrame
     closed: pd.DataFrame
     failed: pd.DataFrame
+    untimed: pd.DataFrame
     void_rounds: int
     compares_builds: bool  #: different builds were measured in the same rounds
     caveats: list[str]
@@ -107,7 +110,8 @@ def collect(rows: dict[str, pd.DataFrame], allow_mixed: bool = False) -> Results
     caveats += [f"{source} holds {n} round{'s' * (n > 1)} of {of}, too: taken once"
                 for (source, of), n in rows["copies"].groupby(["source", "of"]).size().items()]
     backends = _backends(rows["backend"], samples)
-    samples = _with_points(samples)
+    samples, untimed = _with_times(_with_points(samples))
+    caveats += [f"{place_words(p)} has no times: {p.untimed}" for p in untimed.drop_duplicates("key").itertuples()]
     failed = _failed(samples)
     samples, rounds = _rounds(samples)
     points = _points(samples, rounds)
@@ -123,7 +127,8 @@ def collect(rows: dict[str, pd.DataFrame], allow_mixed: bool = False) -> Results
     peaks, paces = _peaks(rows["peak"], paces, environments)
     sources = list(dict.fromkeys(pd.concat([rows[kind]["source"] for kind in rows if kind != "copies"])))
     return Results(sources, samples, rounds.reset_index(drop=True), points.drop(columns="fewest_steps"), series,
-                   environments, backends, particles, peaks, paces, closed, failed, len(rows["void"]), together, caveats)
+                   environments, backends, particles, peaks, paces, closed, failed, untimed[untimed["verified"]],
+                   len(rows["void"]), together, caveats)
 
 
 def cells_words(p) -> str:
@@ -132,9 +137,11 @@ def cells_words(p) -> str:
 
 
 def place_words(p) -> str:
-    """A point in a caveat: "symmetric_omp M=6 threads=2", with its block unless that is auto or none."""
+    """A point in a caveat: "symmetric_omp M=6 threads=2", with its block unless that is auto or none, and its
+    ranks where there are several."""
     block = "" if p.block in ("none", "auto") else f" {p.block}"
-    return f"{p.backend} {cells_words(p)}{block} threads={p.threads}"
+    ranks = f" ranks={p.ranks} {p.cut}" if p.ranks > 1 else ""
+    return f"{p.backend} {cells_words(p)}{block} threads={p.threads}{ranks}"
 
 
 def _without_voids(rounds: pd.DataFrame, voids: pd.DataFrame) -> pd.DataFrame:
@@ -170,6 +177,8 @@ def _with_points(samples: pd.DataFrame) -> pd.DataFrame:
     name that of the build."""
     samples["block"] = samples["block"].fillna("none")
     samples["particles"] = samples["particles"].fillna("")
+    samples["ranks"] = samples["ranks"].fillna(1).astype(int)
+    samples["cut"] = samples["cut"].fillna("none")
     raw = samples.groupby(["file", *POINT], dropna=False, sort=False).ngroup()
     alone = samples["cells"].notna() & ~(samples["vector_units.lanes"] > 1)
     samples.loc[alone.groupby(raw).transform("any"), "isa"] = "scalar"
@@ -179,6 +188,15 @@ def _with_points(samples: pd.DataFrame) -> pd.DataFrame:
     samples["key"] = keys.groupby(list(keys)).ngroup()
     samples["verified"] = samples["error"].isna() & samples["fingerprint"].notna()
     return samples.sort_values(["key", "file", "round", "repetition", "step"], kind="stable").reset_index(drop=True)
+
+
+def _with_times(samples: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Samples without those that were verified and counted, but not timed, and these."""
+    untimed = samples[samples["untimed"].notna()]
+    if len(untimed) == len(samples):
+        raise ResultsError(f"no row has times: {untimed['untimed'].iloc[0]}")
+    timed = samples[samples["untimed"].isna()].reset_index(drop=True)
+    return timed, untimed[~untimed["key"].isin(timed["key"])].reset_index(drop=True)
 
 
 def _failed(samples: pd.DataFrame) -> pd.DataFrame:

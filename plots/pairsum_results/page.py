@@ -1,5 +1,5 @@
 """One self-contained page of one or several reports: warnings, answer, ladders, case by case, questions; and, folded,
-figures, tables, facts and caveats."""
+ranks, figures, tables, facts and caveats."""
 import base64
 import hashlib
 import pathlib
@@ -11,7 +11,7 @@ import pandas as pd
 
 from . import board, tables
 from .facts import facts
-from .figures import ALL, Look, Sheet, cases, draw_all, ladder
+from .figures import ALL, Look, Sheet, cases, draw_all, ladder, ranks
 from .figures.style import FAMILIES
 from .ladders import worlds
 from .reports import Report
@@ -42,12 +42,15 @@ def text(reports: list[Report], drawn: list[list[tuple[Sheet, str]]], folder: pa
     script = (_HERE / "page.js").read_text()
     case, threads = board.start(reports[0])
     machines = list(map(_machine, reports))
+    drawings, by_heading = dict(_figures(drawn)), _by_heading(map(_tables, reports))
+    of_ranks = {"drawing": ranks.RANKS, "figure": drawings.pop(ranks.RANKS, []),
+                "tables": by_heading.pop(ranks.RANKS.heading, [])}
     return filled(
         "page.html.j2", machines=machines, title=reports[0].title, case=case, threads=threads, families=FAMILIES,
         cases=list(dict.fromkeys(world for one in machines for world in one["worlds"])),
         counts=sorted({count for one in machines for _, count in one["ladders"]}),
-        figures=_figures(drawn), links=lambda *names: _links(folder, drawn[0], names), ladder=ladder.LADDER,
-        heat=cases.CASES, tables=_by_heading(map(_tables, reports)), facts=_by_heading(map(_facts, reports)),
+        figures=list(drawings.items()), ranks=of_ranks, links=lambda *names: _links(folder, drawn[0], names),
+        ladder=ladder.LADDER, heat=cases.CASES, tables=by_heading, facts=_by_heading(map(_facts, reports)),
         script=Markup(script),
         script_hash="sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode())
 

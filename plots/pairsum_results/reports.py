@@ -10,6 +10,7 @@ from .densities import density
 from .load import Results, place_words
 from .model import models, shares
 from .questions import questions
+from .scaling import scaling, unlike
 from .self_tests import self_test
 from .stats import FEWEST_FOR_MEDIAN
 
@@ -17,7 +18,8 @@ from .stats import FEWEST_FOR_MEDIAN
 @dataclasses.dataclass
 class Report:
     """`points` are those of the results with what models and shares say; the other tables are what the functions of
-    their names give: compare.py, densities.py, and ladders.py for `standings`, `ladder`, `shifts`, `strategies`."""
+    their names give: compare.py, densities.py, scaling.py, and ladders.py for `standings`, `ladder`, `shifts`,
+    `strategies`."""
     results: Results
     title: str
     points: pd.DataFrame
@@ -27,6 +29,7 @@ class Report:
     compiler_comparison: pd.DataFrame
     m_comparison: pd.DataFrame
     density: pd.DataFrame
+    scaling: pd.DataFrame
     standings: pd.DataFrame
     ladder: pd.DataFrame
     shifts: pd.DataFrame
@@ -53,7 +56,7 @@ def report(results: Results) -> Report:
     asked = questions(results, points["series"][said.point], {**of_points, "points": points}) if said else []
     studies, hosts = results.series["study"].unique(), results.environments["host"].unique()
     return Report(results, f"{', '.join(studies)} on {', '.join(hosts)}", points, **of_points, density=density(results),
-                  standings=ladders.standings(results), ladder=found,
+                  scaling=scaling(results), standings=ladders.standings(results), ladder=found,
                   shifts=shifted, strategies=ladders.strategies(results, found, shifted), self_test=tested, answer=said,
                   questions=asked, caveats=_caveats(results, of_points, tested))
 
@@ -82,6 +85,7 @@ def _caveats(results: Results, tables: dict[str, pd.DataFrame], tested: pd.DataF
     for e in tested[~tested["holds"].astype(bool)].itertuples():
         cells = "" if np.isnan(e.M) else f" M={e.M:.0f}"
         found.append(f"self-test {e.backend}{cells} threads={e.threads} does not hold: {e.text}")
+    found += unlike(results)
     found += [f"{place_words(f)}: {f.rows} row{'' if f.rows == 1 else 's'} without a passed verification left out"
               for f in results.failed.itertuples()]
     return list(dict.fromkeys(found))

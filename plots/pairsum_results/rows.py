@@ -21,7 +21,8 @@ PHASES = ["index_s", "prepare_s", "zero_s", "sum_s", "reduce_s", "integrate_s", 
 _POINT = {"case": "text", "state": "text", "dx": "number", "H": "number", "n_fluid": "count", "n_boundary": "count",
           "order": "text", "dim": "from one", "precision": "text", "interaction": "text", "smoothing": "text",
           "integrator": "text", "dt": "number", "backend": "text", "grid": "text", "M": "from one?",
-          "threads": "from one", "granularity": "text", "isa": "text", "block": "text", "particles": "hex"}
+          "threads": "from one", "granularity": "text", "isa": "text", "block": "text", "particles": "hex",
+          "ranks": "from one", "cut": "text?"}
 _WORK = {**dict.fromkeys(("cells", "cells_nonempty", "sumF1", "sumF2", "pairs_tested", "pairs_interacting",
                           "pairs_fluid_fluid", "pairs_fluid_boundary"), "count"),
          "pairs_tested_unfolded": "count?", "flops": "amount?", "bytes": "amount?",
@@ -33,7 +34,8 @@ _KINDS: dict[str, dict[str, Any]] = {
                "threads_busy_s": "times?", "barrier_wait_s": "times?",
                "counters?": dict.fromkeys(("cycles", "instructions", "cache_misses"), "count?"), "work?": _WORK,
                "peak_rss_bytes": "count?", "workspace_bytes": "count?", "lost": "count?", "threads_worked": "count?",
-               "verify": {"max_rel_err": "number?", "bound": "number?", "fingerprint": "hex?"}, "error": "text"},
+               "verify": {"max_rel_err": "number?", "bound": "number?", "fingerprint": "hex?"}, "error": "text",
+               "ranks": "ranks", "untimed": "text"},
     "environment": {"environment": "hex", "caches": "counts", "cores": "from one", "governor": "text?",
                     "libraries": "texts", "dirty": "flag",
                     **dict.fromkeys(("host", "cpu", "os_kernel", "compiler", "flags", "git", "binding", "counters",
@@ -50,7 +52,9 @@ _KINDS: dict[str, dict[str, Any]] = {
     "void": {"round": "from one", "reason": "text"},
     "end": {"plan": "hex", "reason": "text"},
     "particles": {"particles": "hex", "files": "list of texts", "facts": "facts"}}
-_OPTIONAL = {"error", "work.vector_units", "limits", "point.particles"}
+_OPTIONAL = {"error", "untimed", "ranks", "work.vector_units", "limits", "point.particles", "point.ranks", "point.cut"}
+#: The one key of a row whose column has another name: that of a point is a number.
+_COLUMN = {"ranks": "by_rank"}
 _SINCE_3 = {"lost", "threads_worked", "work.flops", "work.bytes"}
 _SELDOM_IN_2 = {"point.block", "workspace_bytes"}
 #: Objects whose keys are columns by their full names; those of the others, as "sum_s", tell what they are.
@@ -97,6 +101,23 @@ _TESTS: dict[str, tuple[Callable[[Any], bool], str]] = {
                                                 for one in v), "an array of arrays of numbers >= 0")}
 
 
+_RANK = {"host": "text", "cores": "text", "busy_s": "amount?", "waiting_s": "amount?",
+         **dict.fromkeys(("own", "ghosts", "boundary", "pairs", "cut"), "count"),
+         **dict.fromkeys(("halo", "migrate", "send_back", "partition"), "traffic")}
+_TESTS["traffic"] = (lambda v: type(v) is dict and v.keys() == {"messages", "bytes"}
+                     and all(map(_TESTS["count"][0], v.values())), "an object of messages and bytes")
+
+
+def _is_rank(value: Any) -> bool:
+    return type(value) is dict and value.keys() == _RANK.keys() and all(
+        kind.endswith("?") and value[key] is None or _TESTS[kind.rstrip("?")][0](value[key])
+        for key, kind in _RANK.items())
+
+
+_TESTS["ranks"] = (lambda v: type(v) is list and all(map(_is_rank, v)),
+                   "an array of objects with " + ", ".join(_RANK))
+
+
 def describe(value: Any) -> str:
     """What a JSON value is, in words."""
     words = {type(None): "null", bool: "a boolean", list: "an array", dict: "an object"}
@@ -139,7 +160,8 @@ class _Checked:
             elif kind.rstrip("?") in _NUMBERS and (nullable or not values):
                 columns[dotted + name] = pd.Series(values, at, dtype=float)  # null is NaN
                 continue
-            columns[dotted + name] = pd.Series(values, at, dtype=object if values == [] else None)
+            columns[_COLUMN.get(prefix + name, dotted + name)] = pd.Series(values, at,
+                                                                           dtype=object if values == [] else None)
         return pd.concat([pd.DataFrame(columns, index=lines), *parts], axis=1)
 
     def _present(self, lines: list[int], objects: list[dict], name: str, prefix: str) -> tuple[list[int], list]:
@@ -242,10 +264,14 @@ def _order_faults(rows: Iterable[tuple[int, dict]]) -> Iterable[tuple[int, str]]
             particles.add(row["particles"])
         if kind == "sample" and row["point"].get("particles", "") not in {"", *particles}:
             yield line, f'key "point.particles" should name a particles row before it, is "{row["point"]["particles"]}"'
-        if kind == "sample" and ("error" in row) == (row["phases"] is not None):
-            yield line, ('key "phases" should be ' + ('null in a row with "error"' if "error" in row else
+        why = next((key for key in ("error", "untimed") if key in row), None)
+        if kind == "sample" and (why is not None) == (row["phases"] is not None):
+            yield line, ('key "phases" should be ' + (f'null in a row with "{why}"' if why else
                                                       'an object in a row without "error"')
                          + f', is {describe(row["phases"])}')
+        if kind == "sample" and "ranks" in row and len(row["ranks"]) != row["point"].get("ranks", 1):
+            yield line, (f'key "ranks" should be a list of {row["point"].get("ranks", 1)} ranks, '
+                         f'has {len(row["ranks"])}')
         if kind == "sample" and row["schema"] == SCHEMAS[0] and (environment, row["point"]["backend"]) not in backends:
             yield line, ('key "point.backend" should name a backend row of its environment before it, is '
                          f'"{row["point"]["backend"]}"')

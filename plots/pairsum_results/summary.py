@@ -29,8 +29,14 @@ _TABLES = {"speedup": [*_RATIO, "efficiency", "machine_speedup", "of_machine"],
            "ladder": [*_RATIO, "series", "at", "rank", "of", "over_serial", "efficiency", "extra_bytes_per_particle"],
            "shifts": ["series", "base_series", "what", "backend", *_RATIO[2:], "rank", "base_rank"],
            "strategies": ["backend", "breaks_down"],
+           "scaling": ["scaling", "world", "point", "base", "threads_base", "backend", "M", "ranks", "cut", "threads",
+                       "cores", "timed", "why_untimed", "step_s", "sum_s", "verdict",
+                       *(f"{name}{end}" for name in ("speedup", "efficiency", "over_threads", "computation_scaling")
+                         for end in ("", "_low", "_high")),
+                       "load_balance", "communication_efficiency", "parallel_efficiency", "cut_pairs",
+                       "ghosts_per_particle", "imbalance"],
            "self_test": ["what", "backend", "threads", "expected", *_RATIO[2:5], "confidence", "holds", "text"]}
-_WHOLE = {"M", "best_M", "base", "seed", "workspace_bytes", "rounds"}
+_WHOLE = {"M", "best_M", "point", "base", "threads_base", "seed", "workspace_bytes", "rounds"}
 
 
 def summary(report: Report) -> dict[str, Any]:
@@ -39,6 +45,7 @@ def summary(report: Report) -> dict[str, Any]:
     r = report.results
     answer = report.answer and {**dataclasses.asdict(report.answer),
                                 **report.points.loc[report.answer.point, [*PLACE, "total_s"]].to_dict()}
+    several = ["ranks", "cut"] if (r.series["ranks"] > 1).any() else []
     content = {"schema": SCHEMA, "title": report.title, "sources": r.sources, "answer": answer,
                "questions": report.questions, "caveats": report.caveats,
                "rounds": {"finished": len(r.closed), "void": r.void_rounds,
@@ -46,8 +53,9 @@ def summary(report: Report) -> dict[str, Any]:
                "environments": _records(r.environments, ["environment", "host", "cpu", "cores", "compiler", "flags",
                                                          "git", "dirty", "binding", "governor", "os_kernel"]),
                "peaks": _records(r.peaks, ["threads", "precision", "bandwidth_bytes_per_s", "flops_per_s"]),
-               "series": _records(r.series, _SERIES), "points": _records(report.points, _POINT),
-               **{name: _records(report.tables[name], columns) for name, columns in _TABLES.items()},
+               "series": _records(r.series, _SERIES + several), "points": _records(report.points, _POINT),
+               **{name: _records(report.tables[name], columns) for name, columns in _TABLES.items()
+                  if name != "scaling" or len(report.scaling)},
                "failed": _records(r.failed, ["study", "case", "state", "dx", *PLACE, "rows", "error"])}
     return plain(content)
 

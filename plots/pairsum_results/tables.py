@@ -4,9 +4,10 @@ from typing import Any, Callable, Iterator
 
 import pandas as pd
 
-from .load import Results, place_words
+from .load import PLACE, Results, place_words
 from .reports import Report
 from .rows import PHASES
+from .scaling import TRAFFIC
 from .words import (bounded, count, fixed, hoisted, markdown_table, names, percent, short, text_table, time, whole,
                     wrapped)
 
@@ -137,6 +138,7 @@ def all_tables(report: Report) -> Iterator[Table]:
                  units=lambda e: e.units, backend=lambda e: e.backend, gather=lambda e: e.base_backend,
                  threads=lambda e: whole(e.threads), pairs=lambda e: fixed(e.pairs_per_particle, 1),
                  ns_per_pair=lambda e: fixed(e.ns_per_pair, 2), symmetric_is_faster_by=lambda e: _ratio(e, digits=2))
+    yield from _rank_tables(report.scaling)
     yield _table("Self-test: summation time over that of the base against what is known (95 % over the whole table)",
                  report.self_test, 3, what=lambda e: e.what, backend=lambda e: e.backend, state=lambda e: e.state,
                  dx=lambda e: f"{e.dx:.10g}", M=lambda e: whole(e.M), threads=lambda e: whole(e.threads),
@@ -144,11 +146,52 @@ def all_tables(report: Report) -> Iterator[Table]:
                  holds=lambda e: "yes" if e.holds else "NO")
 
 
+def _rank_tables(scaling: pd.DataFrame) -> Iterator[Table]:
+    """What ranks gain, how well they are used, and what they exchange."""
+    table = scaling.assign(name=names(scaling, False))
+    place = {"particles": lambda e: e.world, "backend": lambda e: e.name, "grid": lambda e: e.grid,
+             "pairs_across": lambda e: "-" if e.ranks == 1 else e.cut, "M": lambda e: whole(e.M),
+             "ranks": lambda e: whole(e.ranks), "threads": lambda e: whole(e.threads)}
+    for kind, of in (("strong", "the same particles"), ("weak", "as many particles as a rank has")):
+        yield _table(f"Ranks: {kind} scaling; a step from index to reduce with messages and waits, and the sum alone. "
+                     f"Speedup and efficiency\nover 1 rank with 1 thread on {of}; then the time of 1 rank with as many "
+                     "threads\nover that of the ranks", table[table["scaling"] == kind], 4, **place,
+                     step_ms=lambda e: ms(e.step_s) if e.timed else "not timed", sum_ms=lambda e: ms(e.sum_s),
+                     speedup=lambda e: _ratio(e, "speedup", 2), efficiency=lambda e: _ratio(e, "efficiency", 2),
+                     sum_efficiency=lambda e: _ratio(e, "sum_efficiency", 2),
+                     threads_over_ranks=lambda e: _ratio(e, "over_threads", 2),
+                     sum_threads_over_ranks=lambda e: _ratio(e, "sum_over_threads", 2),
+                     ranks_are=lambda e: said(e.verdict))
+    several = table[table["ranks"] > 1]
+    metrics = several[several["load_balance"].notna()]
+    yield _table("Ranks: POP metrics of the sum; load balance is mean over greatest useful time, communication "
+                 "efficiency the greatest over the\ntime until the last rank is through, parallel efficiency their "
+                 "product (0.8 counts as good); computation scaling is\nthe useful time of 1 rank with 1 thread over that "
+                 "of all", metrics, 5, scaling=lambda e: e.scaling, **place,
+                 load_balance=lambda e: fixed(e.load_balance, 3),
+                 communication_efficiency=lambda e: fixed(e.communication_efficiency, 3),
+                 parallel_efficiency=lambda e: fixed(e.parallel_efficiency, 3),
+                 computation_scaling=lambda e: _ratio(e, "computation_scaling", 2))
+    counted = several[several["cut_pairs"].notna()].drop_duplicates(["problem", *PLACE, "ranks", "cut"])
+    yield _table("Ranks: what they hold, and what all of them send in a step; cut pairs each once, imbalance: the "
+                 "greatest number of pairs\nof a rank over the mean", counted, 4, **place,
+                 cut_pairs=lambda e: count(e.cut_pairs), of_all=lambda e: percent(e.cut_share),
+                 ghosts_a_particle=lambda e: fixed(e.ghosts_per_particle, 3),
+                 imbalance=lambda e: fixed(e.imbalance, 3),
+                 **{f"{phase}{what}": _traffic(phase, what) for phase in TRAFFIC for what in ("", "_bytes")})
+
+
+def _traffic(phase: str, what: str) -> Callable[[Any], str]:
+    """A cell: messages or bytes of a phase."""
+    return lambda e: count(getattr(e, f"{phase}_bytes")) if what else short(getattr(e, f"{phase}_messages"))
+
+
 def heading(results: Results, series: int) -> tuple[str, str]:
     """A series in a few words, and in all."""
     s = results.series.loc[series]
     e = results.environments[results.environments["environment"] == s["environment"]].iloc[0]
-    return (f"{s['case']}, {s['state']}, dx {s['dx']:.10g}",
+    ranks = f", {s['ranks']} ranks, pairs across them {s['cut']}" if s["ranks"] > 1 else ""
+    return (f"{s['case']}, {s['state']}, dx {s['dx']:.10g}{ranks}",
             f"{s['n_fluid']} fluid and {s['n_boundary']} boundary particles; study {s['study']}, order {s['order']}, "
             f"{s['dim']}D, {s['precision']}, {s['interaction']}, {s['smoothing']}, {s['integrator']}, dt "
             f"{s['dt']:.10g}; host {e['host']}, {e['cores']} cores, {e['compiler']}, git {e['git']}"

@@ -9,12 +9,13 @@ import made
 import numpy as np
 import pandas as pd
 import pytest
+import ranked
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 import pairsum_results as pr
 from pairsum_results import figures
-from pairsum_results.figures import PAPER, Look, bars, cases, density, ladder, over, ratios, roofline, style, threads
+from pairsum_results.figures import PAPER, Look, bars, cases, density, ladder, over, ranks, ratios, roofline, style, threads
 from pairsum_results.figures.sheet import packed
 
 PAGE = Look(titled=False)
@@ -41,6 +42,12 @@ def dense(tmp_path_factory):
     return artists.report(tmp_path_factory.mktemp("dense"), artists.density())
 
 
+@pytest.fixture(scope="module")
+def scaled(tmp_path_factory):
+    """A report of ranks."""
+    return artists.report(tmp_path_factory.mktemp("scaled"), ranked.study(ranked.strong() + ranked.weak()[1:]))
+
+
 def sheets(drawing, report, look=PAGE):
     """The figures of a drawing."""
     return [figures.draw(one, report, look) for one in figures.sheets(report, look) if one.drawing is drawing]
@@ -51,11 +58,11 @@ def first(drawing, report, title=""):
     return next(axes for figure in sheets(drawing, report) for name, axes in artists.panels(figure).items() if title in name)
 
 
-def test_a_figure_is_drawn_where_it_says_something(full, two, dense):
-    assert {one.drawing for report in (full, dense) for one in figures.sheets(report)} == set(figures.ALL)
+def test_a_figure_is_drawn_where_it_says_something(full, two, dense, scaled):
+    assert {one.drawing for report in (full, dense, scaled) for one in figures.sheets(report)} == set(figures.ALL)
     missing = set(figures.ALL) - {one.drawing for one in figures.sheets(two)}
     assert {d.name for d in missing} == {"barrier_wait", "m_comparison", "size_scaling", "granularity", "compilers",
-                                         "self_test", "cases", "density"}  # talk() has two M and one size
+                                         "self_test", "cases", "density", "ranks"}  # talk() has two M and one size
     assert all(d.table in full.tables for d in figures.ALL)
 
 
@@ -240,6 +247,22 @@ def test_two_densities_are_no_line(tmp_path):
     assert two.density.empty and not density.DENSITY.panels(two)
 
 
+def test_efficiencies_of_ranks_are_lines_over_cores_that_begin_with_one_rank(scaled):
+    strong, weak = (first(ranks.RANKS, scaled, f"{kind} scaling") for kind in ("strong", "weak"))
+    assert {name: line for name, line in artists.lines(strong).items() if name != "ideal"} == {
+        "threads alone": approx((1, 1.0), (2, 0.8), (4, 0.5)),
+        "ranks of 1 thread, twice": approx((1, 1.0), (2, 1.0), (4, 0.8)),
+        "ranks of 1 thread, once": approx((1, 1.0), (2, 1.25), (4, 1.0)),
+        "ranks of 2 threads, twice": approx((2, 0.8), (4, 0.8)),
+        "ranks of 2 threads, once": approx((2, 0.8), (4, 0.5))}
+    assert strong.get_xscale() == "log" and [text.get_text() for text in strong.get_xticklabels()] == ["1", "2", "4"]
+    assert artists.lines(weak)["ranks of 1 thread, twice"] == approx((1, 1.0), (2, 0.8), (4, 0.625))
+
+
+def approx(*spots):
+    return [(x, pytest.approx(y)) for x, y in spots]
+
+
 @pytest.mark.parametrize("drawing, table", [(ratios.COMPILERS, "compiler_comparison"), (ratios.SELF_TEST, "self_test")])
 def test_ratios_are_dots_with_intervals_and_a_word(full, drawing, table):
     axes, rows = first(drawing, full), full.tables[table]
@@ -252,8 +275,8 @@ def test_ratios_are_dots_with_intervals_and_a_word(full, drawing, table):
 
 @pytest.mark.parametrize("look", [Look(), PAGE, NARROW, PAPER], ids=["file", "page", "narrow", "paper"])
 @pytest.mark.parametrize("drawing", figures.ALL, ids=lambda drawing: drawing.name)
-def test_no_text_lies_on_another_or_leaves_the_figure(full, two, dense, drawing, look):
-    for figure in (figure for report in (full, two, dense) for figure in sheets(drawing, report, look)):
+def test_no_text_lies_on_another_or_leaves_the_figure(full, two, dense, scaled, drawing, look):
+    for figure in (figure for report in (full, two, dense, scaled) for figure in sheets(drawing, report, look)):
         with figures.applied(look):
             assert artists.overlaps(figure) == []
         if look is PAPER:

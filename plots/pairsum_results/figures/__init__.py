@@ -25,15 +25,15 @@ except ImportError as problem:
     raise ResultsError(f"figures need matplotlib for {sys.executable}: {problem} (Debian: python3-matplotlib)"
                        ) from None
 
-from . import bars, cases, density, ladder, over, ratios, roofline, threads
+from . import bars, cases, density, ladder, over, ranks, ratios, roofline, threads
 from .parts import Drawing, of_series, working
 from .sheet import Panel, packed, sheet
 from .style import PAPER, Look, applied  # noqa: F401
 
 ALL: list[Drawing] = [
     ladder.LADDER, cases.CASES, threads.SPEEDUP, threads.ALGORITHM_SPEEDUP, over.M_COMPARISON, bars.PHASE_SPLIT,
-    bars.BARRIER_WAIT, roofline.ROOFLINE, over.SIZE_SCALING, density.DENSITY, over.GRANULARITY, ratios.COMPILERS,
-    ratios.SELF_TEST]
+    bars.BARRIER_WAIT, roofline.ROOFLINE, over.SIZE_SCALING, density.DENSITY, ranks.RANKS, over.GRANULARITY,
+    ratios.COMPILERS, ratios.SELF_TEST]
 _DPI, _PIXELS = 130, (1600, 1200)  # a PNG is to fit a slide
 
 
