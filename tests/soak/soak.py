@@ -180,7 +180,7 @@ class Soak:
         raise Faults(f"processes {left} were left behind")
 
     def run(self, seconds: float) -> None:
-        shared = set(os.listdir("/dev/shm"))
+        shared = in_shared_memory()
         until, number = time.time() + seconds, 0
         while time.time() < until or self.counts["starts"] < FEWEST:
             number += 1
@@ -190,10 +190,15 @@ class Soak:
             self.counts["studies"] += 1
             self.counts["rounds"] += len(self.rounds[path.name])
             shutil.move(path, self.folder)  # the disk is small
-        if left := sorted(set(os.listdir("/dev/shm")) - shared):
+        if left := sorted(in_shared_memory() - shared):
             raise Faults(f"left in /dev/shm: {left}")
         if left := sorted(os.listdir(self.folder / "tmp")):
             raise Faults(f"left in the temporary folder: {left}")
+
+
+def in_shared_memory() -> set[str]:
+    """Names in /dev/shm, but those that MPI jobs and clang's OpenMP make there, of programs that run beside a soak."""
+    return {name for name in os.listdir("/dev/shm") if not name.startswith(("vader_segment", "__KMP_"))}
 
 
 def main() -> int:
