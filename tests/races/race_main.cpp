@@ -113,13 +113,14 @@ void run_library(runtime r) {
   }
 }
 
-/// A backend for each way of keeping threads apart, scalar and on vector units.
+/// Colours, locks and buffers; on vector units one.
 void run_on_ranks() {
   const registry& all = registry::instance();
   const workers w(runtime::omp, threads);
   const world one(trials[0]);
-  for (const char* backend : {"naive_omp", "symmetric_omp", "sliced_locks", "touched_blocks", "verlet_list"})
-    for (const auto isa : {scalar_isa, best_isa}) run(all, one, backend, isa, w.get());
+  for (const char* backend : {"symmetric_omp", "sliced_locks", "touched_blocks"})
+    run(all, one, backend, scalar_isa, w.get());
+  run(all, one, "symmetric_omp", best_isa, w.get());
 }
 
 void run_planted(std::string_view name, std::string_view isa) {
