@@ -85,6 +85,8 @@ level threads() {
             std::string each, together;
             for (const std::string& word : parse_words(key, text)) {
               const bool is_shared = word.ends_with(shared);
+              if (word == shared)
+                throw error(fmt::format("{} takes words like 1 or cores/ranks, not \"{}\"", key, word));
               std::string& list = is_shared ? together : each;
               list += (list.empty() ? "" : ",") + word.substr(0, word.size() - (is_shared ? shared.size() : 0));
             }

@@ -49,7 +49,7 @@ point read_point(fields from, bool former) {
   p.granularity = from.text("granularity");
   p.isa = from.text("isa");
   p.ranks = from.has("ranks") ? from.integer("ranks", 1) : 1;
-  if (from.has("cut")) p.cut = from.text_or_null("cut").value_or("none");
+  if (from.has("cut") && !from.is_null("cut")) p.cut = from.word("cut", {"twice", "once"});
   if (from.has("particles")) p.particles = from.hex("particles");
   if (!former || from.has("block")) p.block = from.text("block");  // older rows have none
   from.finish();
@@ -234,8 +234,7 @@ void from_json(const json& j, sample& s) {
   }
   s.ranks.reset();
   if (from.has("ranks")) s.ranks = read_ranks(from, "ranks");
-  if (s.ranks.has_value() && s.ranks->size() != static_cast<std::size_t>(s.point.ranks))
-    from.reject("ranks", "a list of " + std::to_string(s.point.ranks) + " ranks");
+  if (s.ranks && s.ranks->size() < 2) from.reject("ranks", "a list of at least 2 ranks");
   s.verify = read_verify(from.nested("verify"));
   from.finish();
 }

@@ -213,8 +213,11 @@ world::result world::measure(const point& p, int steps) {
       times.sum_s = times.sum_s.value_or(0) + sum_s;
       add_to(now.counted, with_.hardware.stop());
       checking += clock.lap();
-      here().barrier();
-      const double waiting_s = clock.lap();
+      double waiting_s = 0;
+      if (here().size() > 1) {
+        here().barrier();
+        waiting_s = clock.lap();
+      }
       summation->reduce(t);
       times.reduce_s = times.reduce_s.value_or(0) + clock.lap();
       if (held_before) out.workspace_bytes = growth(*held_before, heap_bytes());

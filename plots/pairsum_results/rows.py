@@ -22,7 +22,7 @@ _POINT = {"case": "text", "state": "text", "dx": "number", "H": "number", "n_flu
           "order": "text", "dim": "from one", "precision": "text", "interaction": "text", "smoothing": "text",
           "integrator": "text", "dt": "number", "backend": "text", "grid": "text", "M": "from one?",
           "threads": "from one", "granularity": "text", "isa": "text", "block": "text", "particles": "hex",
-          "ranks": "from one", "cut": "text?"}
+          "ranks": "from one", "cut": "cut?"}
 _WORK = {**dict.fromkeys(("cells", "cells_nonempty", "sumF1", "sumF2", "pairs_tested", "pairs_interacting",
                           "pairs_fluid_fluid", "pairs_fluid_boundary"), "count"),
          "pairs_tested_unfolded": "count?", "flops": "amount?", "bytes": "amount?",
@@ -114,8 +114,9 @@ def _is_rank(value: Any) -> bool:
         for key, kind in _RANK.items())
 
 
-_TESTS["ranks"] = (lambda v: type(v) is list and all(map(_is_rank, v)),
-                   "an array of objects with " + ", ".join(_RANK))
+_TESTS["cut"] = (lambda v: v in ("twice", "once"), '"twice" or "once"')
+_TESTS["ranks"] = (lambda v: type(v) is list and len(v) > 1 and all(map(_is_rank, v)),
+                   "an array of at least 2 objects with " + ", ".join(_RANK))
 
 
 def describe(value: Any) -> str:
@@ -269,9 +270,6 @@ def _order_faults(rows: Iterable[tuple[int, dict]]) -> Iterable[tuple[int, str]]
             yield line, ('key "phases" should be ' + (f'null in a row with "{why}"' if why else
                                                       'an object in a row without "error"')
                          + f', is {describe(row["phases"])}')
-        if kind == "sample" and "ranks" in row and len(row["ranks"]) != row["point"].get("ranks", 1):
-            yield line, (f'key "ranks" should be a list of {row["point"].get("ranks", 1)} ranks, '
-                         f'has {len(row["ranks"])}')
         if kind == "sample" and row["schema"] == SCHEMAS[0] and (environment, row["point"]["backend"]) not in backends:
             yield line, ('key "point.backend" should name a backend row of its environment before it, is '
                          f'"{row["point"]["backend"]}"')

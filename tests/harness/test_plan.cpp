@@ -36,6 +36,28 @@ TEST(plan, crosses_the_lists_and_runs_serial_backends_once_per_M) {
   }
 }
 
+TEST(plan, ranks_are_crossed_with_threads_and_cuts) {
+  run_request r;
+  r.backends = {"naive", "naive_omp", "symmetric_omp"};
+  r.M = {6};
+  r.threads = {};
+  r.shared_threads = {4};
+  r.ranks = {1, 2, 8};
+  r.cuts = {"twice", "once"};
+  const auto points = expand(r).front();
+  const auto words = [&](const std::string& backend) {
+    std::vector<std::string> found;
+    for (const point& p : points)
+      if (p.backend == backend)
+        found.push_back(std::to_string(p.ranks) + "x" + std::to_string(p.threads) + " " + p.cut);
+    return found;
+  };
+  using list = std::vector<std::string>;
+  EXPECT_EQ(words("symmetric_omp"), (list{"1x4 none", "2x2 twice", "2x2 once", "8x1 twice", "8x1 once"}));
+  EXPECT_EQ(words("naive_omp"), (list{"1x4 none", "2x2 twice", "8x1 twice"})) << "it has nothing to send back";
+  EXPECT_EQ(words("naive"), (list{"1x1 none", "2x1 twice", "8x1 twice"}));
+}
+
 TEST(plan, one_world_per_dx_and_state) {
   run_request r = request();
   r.dx = {0.02, 0.03};
