@@ -60,6 +60,7 @@ void domain<D, R>::load(const particle_table& p, const std::vector<std::uint32_t
     return std::vector<std::uint32_t>(ids.begin() + static_cast<std::ptrdiff_t>(ids.size() * rank / all),
                                       ids.begin() + static_cast<std::ptrdiff_t>(ids.size() * (rank + 1) / all));
   };
+  state_.particles().since.clear();  // of an earlier load; boundary at home has no such columns
   state_.load_some(p, share(boundary));
   home_ = state_.particles();
   wrap(home_, home_.size());

@@ -12,6 +12,21 @@ namespace {
 
 using namespace test_kit;
 
+/// What was summed may be loaded again, as a simulation does for its checkpoints.
+TEST(moving, a_second_load_sums_as_the_first) {
+  const scene s = make_scene_in(3, "dam_break", 0.08, "perturbed");
+  const setup world = with(s.world, "symmetric_omp", {"compact_grid", 0});
+  const auto oracle = registry::instance().make_reference(world);
+  auto sum = ranked(world, {.skin = 0.1});
+  const workers w(sum->traits().threads, 1);
+  sum->load(s.particles, {});
+  for (int load = 0; load < 2; ++load) {
+    for (int k = 0; k < 2; ++k) sum->evaluate(w.get());
+    EXPECT_EQ(disagreement(sum->rates(), oracle->brute_force(s.particles, some_threads())), "") << "load " << load;
+    sum->load(sum->snapshot(), {});
+  }
+}
+
 /// 40 steps with a new partition every 5: nobody is lost, rates stay within the bound of the state that they belong
 /// to, and states within rounding of those that one rank reaches.
 TEST(moving, forty_steps_with_a_partition_every_five) {
