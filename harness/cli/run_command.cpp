@@ -34,7 +34,7 @@ constexpr level_option comparison_options[] = {
     {"M", "6,7", "hash sizes, like 6,7 or 5..9: the grid folds to 2^M cells an axis"},
     {"threads", "all", "numbers of threads; all: 1, 2, 4, ... all cores; cores: all; cores/ranks"},
     {"ranks", "1", "numbers of ranks of an MPI job, which share the particles"},
-    {"cut", "twice", "pairs across ranks: twice: both ranks sum them; once: one does, and sends back"},
+    {"cut", "twice", "pairs across ranks: twice: both sum them; once: one does, and sends back"},
     {"grid", "hashed_grid", "grids; those that take no M are measured once"},
     {"precision", "double", "working precisions"},
     {"isa", "default", "scalar, best, avx2, all; default: best for tiles, scalar for others"},

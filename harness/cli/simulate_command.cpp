@@ -42,7 +42,7 @@ constexpr level_option simulate_levels[] = {
     {"threads", "cores/ranks", "number of threads of each rank; cores/ranks: all cores, shared by the ranks"},
     {"granularity", "default", "of loops"},
     {"ranks", "1", "number of ranks of an MPI job, which share the particles"},
-    {"cut", "twice", "pairs across ranks: twice: both ranks sum them; once: one does, and sends back"},
+    {"cut", "twice", "pairs across ranks: twice: both sum them; once: one does, and sends back"},
 };
 
 struct simulate_options {
