@@ -72,7 +72,8 @@ partition::~partition() {
 void partition::cut(const weighted_points& own) {
   unsigned long long points = own.x.size();
   MPI_Allreduce(MPI_IN_PLACE, &points, 1, MPI_UNSIGNED_LONG_LONG, MPI_SUM, MPI_COMM_WORLD);
-  if (points == 0) return;  // Zoltan finds no cuts then: the last ones stay
+  // Zoltan finds no cuts then: the last ones stay. The only rank has everything, not the empty box that Zoltan tells.
+  if (points == 0 || boxes_.size() == 1) return;
   has_cuts_ = true;
   void* const data = const_cast<weighted_points*>(&own);
   Zoltan_Set_Num_Obj_Fn(zoltan_, number_of_points, data);
