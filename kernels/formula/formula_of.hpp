@@ -1,7 +1,7 @@
 #pragma once
-#include <cstring>
 #include <vector>
 
+#include <pairsum/core/word_hash.hpp>
 #include <pairsum/formula/lanes_of.hpp>
 #include <pairsum/formula/mixed.hpp>
 #include <pairsum/formula/rate_names.hpp>
@@ -100,15 +100,9 @@ class formula_of final : public formula<I::dim, typename I::real> {
   }
 
   std::uint64_t fingerprint(std::span<const std::uint32_t> place) const override {
-    std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a over 64-bit words, with a fold against its weak low bits
-    for (const std::uint32_t i : place)
-      each_scalar(u_columns_.load(i), [&](const auto& a, int) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, &a, sizeof a);
-        hash = (hash ^ word) * 0x100000001b3u;
-        hash ^= hash >> 29;
-      });
-    return hash;
+    word_hash hash;
+    for (const std::uint32_t i : place) each_scalar(u_columns_.load(i), [&](const auto& a, int) { hash.add(a); });
+    return hash.value();
   }
 
   dynamics<D, R> rates_of_state() const override {

@@ -9,6 +9,7 @@
 #include <pairsum/ranks/places_of_ids.hpp>
 #include <pairsum/ranks/records.hpp>
 #include <pairsum/sum/omega.hpp>
+#include <pairsum/sum/rate_copies.hpp>
 
 namespace pairsum::ranks {
 namespace {
@@ -20,6 +21,13 @@ double widened(const box<D, R>& omega, double reach) {
   for (int d = 0; d < D; ++d)
     far = std::max({far, std::abs(static_cast<double>(omega.low[d])), std::abs(static_cast<double>(omega.high[d]))});
   return reach + 8 * static_cast<double>(std::numeric_limits<R>::epsilon()) * far;
+}
+
+template <int D, class R>
+std::array<double, 3> in_double(const vec<D, R>& x) {
+  std::array<double, 3> place{};
+  for (int d = 0; d < D; ++d) place[static_cast<std::size_t>(d)] = static_cast<double>(x[d]);
+  return place;
 }
 
 int own_rank() {
@@ -35,15 +43,8 @@ domain<D, R>::domain(state<D, R>& s, double reach, double skin)
     : state_(s),
       omega_(make_box<D, R>(s.settings())),
       torus_(omega_, static_cast<R>(reach + skin)),
-      reach_(widened(omega_, reach + skin)),
-      skin_(skin) {}
-
-template <int D, class R>
-typename domain<D, R>::place domain<D, R>::position(const particle_set<D, R>& p, std::size_t i) const {
-  place x{};
-  for (int d = 0; d < D; ++d) x[static_cast<std::size_t>(d)] = static_cast<double>(p.x[d][i]);
-  return x;
-}
+      skin_(skin),
+      near_(D, in_double(omega_.low), in_double(omega_.high), omega_.periodic, widened(omega_, reach + skin)) {}
 
 template <int D, class R>
 void domain<D, R>::load(const particle_table& p, const std::vector<std::uint32_t>& order, balance weights) {
@@ -65,7 +66,7 @@ void domain<D, R>::load(const particle_table& p, const std::vector<std::uint32_t
   home_ = state_.particles();
   wrap(home_, home_.size());
   state_.load_some(p, share(fluid));
-  fluid_ = own_ = state_.particles().size();
+  fluid_ = state_.particles().size();
   exchange_ = exchange();
   cut(weights);
 }
@@ -92,11 +93,11 @@ void domain<D, R>::cut(balance weights) {
   weighted_points points{D, {}, {}};
   for (std::size_t i = 0; i < fluid_; ++i)
     if (p.kind[i] == particle_kind::fluid) {
-      points.x.push_back(position(p, i));
+      points.x.push_back(in_double(p.position(i)));
       points.weight.push_back(candidates[i]);
     }
   partition_.cut(points);
-  find_near_boxes();
+  near_.find(partition_.boxes(), own_rank());
   state_.particles().since.clear();
   move_to_owners(partitioned_);
   copy_boundary(partitioned_);
@@ -114,7 +115,6 @@ void domain<D, R>::wrap(particle_set<D, R>& p, std::size_t n) const {
 template <int D, class R>
 void domain<D, R>::move_to_owners(traffic& count) {
   auto& p = state_.particles();
-  wrap(p, fluid_);
   std::vector<std::uint32_t> keep, leave;
   std::vector<int> to;
   const int here = own_rank();
@@ -126,83 +126,35 @@ void domain<D, R>::move_to_owners(traffic& count) {
       const double x = static_cast<double>(p.x[d][i]);
       inside = inside && x > low[static_cast<std::size_t>(d)] && x < high[static_cast<std::size_t>(d)];
     }
-    const int rank = inside ? here : partition_.rank_of(position(p, i));  // on a face the partition says whose it is
+    const int rank =
+        inside ? here : partition_.rank_of(in_double(p.position(i)));  // on a face the partition says whose it is
     (rank == here ? keep : leave).push_back(static_cast<std::uint32_t>(i));
     if (rank != here) to.push_back(rank);
   }
   const exchange plan(std::move(to));
-  const auto records = plan.forward(packed(p, leave), record_bytes(p), count);
-  if (!leave.empty() || !records.empty() || &count == &partitioned_) replace_fluid(keep, records, false);
+  const auto columns = columns_of(p);
+  const auto records = plan.forward(packed(columns, leave), record_bytes(columns), count);
+  if (!leave.empty() || !records.empty()) replace_fluid(keep, records, false);
 }
 
 template <int D, class R>
 void domain<D, R>::replace_fluid(const std::vector<std::uint32_t>& keep, const std::vector<std::byte>& records,
                                  bool ghosts) {
   auto& p = state_.particles();
-  const std::size_t more = records.size() / record_bytes(p), now = keep.size() + more, tail = p.size() - fluid_;
+  const std::size_t more = records.size() / record_bytes(columns_of(p)), now = keep.size() + more,
+                    tail = p.size() - fluid_;
   if (now > fluid_) p.resize(now + tail);
   p.each_column([&](auto& c) {
     for (std::size_t k = 0; k < keep.size(); ++k) c[k] = c[keep[k]];  // what stays moves down
     if (now != fluid_) std::memmove(c.data() + now, c.data() + fluid_, tail * sizeof c[0]);
   });
   p.resize(now + tail);
-  unpack(p, records, [&](std::size_t k) { return keep.size() + k; });
+  unpack(columns_of(p), records, [&](std::size_t k) { return keep.size() + k; });
   if (ghosts)
     std::fill(p.kind.begin() + static_cast<std::ptrdiff_t>(keep.size()),
               p.kind.begin() + static_cast<std::ptrdiff_t>(now), particle_kind::ghost);
   fluid_ = now;
-  if (!ghosts) own_ = now;
   state_.forget_index();
-}
-
-/// All boxes with their images through periodic faces, and those of them that this rank's box is near.
-template <int D, class R>
-void domain<D, R>::find_near_boxes() {
-  near_.clear();
-  everywhere_.clear();
-  const int here = own_rank();
-  const auto& boxes = partition_.boxes();
-  const rank_box& own = boxes[static_cast<std::size_t>(here)];
-  constexpr unsigned images = pattern::stencil_cells<D>;
-  for (std::size_t rank = 0; rank < boxes.size(); ++rank)
-    for (unsigned image = 0; image < images; ++image) {
-      near_box b{static_cast<int>(rank), boxes[rank].low, boxes[rank].high};
-      bool exists = true, meets_own = true;
-      unsigned code = image;
-      for (int d = 0; d < D; ++d, code /= 3) {
-        const auto a = static_cast<std::size_t>(d);
-        const int turns = static_cast<int>(code % 3) - 1;
-        exists = exists && (turns == 0 || omega_.periodic[d]);
-        if (omega_.periodic[d]) {  // a box without an end ends at the faces
-          b.low[a] = std::max(b.low[a], static_cast<double>(omega_.low[d]));
-          b.high[a] = std::min(b.high[a], static_cast<double>(omega_.high[d]));
-        }
-        const double by = turns * static_cast<double>(omega_.edge(d));
-        b.low[a] += by - reach_;
-        b.high[a] += by + reach_;
-        meets_own = meets_own && b.low[a] <= own.high[a] && b.high[a] >= own.low[a];
-      }
-      if (!exists) continue;
-      everywhere_.push_back(b);
-      if (meets_own && (b.rank != here || image != images / 2)) near_.push_back(b);
-    }
-}
-
-template <int D, class R>
-template <class F>
-void domain<D, R>::each_rank_near(const place& x, std::span<const near_box> boxes, F&& f) {
-  found_.clear();
-  for (const near_box& b : boxes) {
-    bool inside = true;
-    for (std::size_t d = 0; d < static_cast<std::size_t>(D); ++d)
-      inside = inside && x[d] >= b.low[d] && x[d] <= b.high[d];
-    if (inside) found_.push_back(b.rank);
-  }
-  if (found_.size() > 1) {  // through several faces
-    std::ranges::sort(found_);
-    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
-  }
-  for (const int rank : found_) f(rank);
 }
 
 /// Each rank keeps a share of the boundary at home and sends copies from there.
@@ -211,7 +163,7 @@ void domain<D, R>::copy_boundary(traffic& count) {
   std::vector<std::uint32_t> list;
   std::vector<int> to;
   for (std::size_t i = 0; i < home_.size(); ++i)
-    each_rank_near(position(home_, i), everywhere_, [&](int rank) {
+    near_.each(in_double(home_.position(i)), [&](int rank) {
       list.push_back(static_cast<std::uint32_t>(i));
       to.push_back(rank);
     });
@@ -221,11 +173,12 @@ void domain<D, R>::copy_boundary(traffic& count) {
   std::vector<std::uint32_t> lost;
   for (std::size_t i = fluid_; i < p.size(); ++i)
     if (p.kind[i] == particle_kind::lost) lost.push_back(static_cast<std::uint32_t>(i));
-  auto records = plan.forward(packed(home_, list), record_bytes(home_), count);
-  const auto of_lost = packed(p, lost);
+  const auto columns = columns_of(home_);
+  auto records = plan.forward(packed(columns, list), record_bytes(columns), count);
+  const auto of_lost = packed(columns_of(p), lost);
   records.insert(records.end(), of_lost.begin(), of_lost.end());
-  p.resize(fluid_ + records.size() / record_bytes(p));
-  unpack(p, records, [&](std::size_t k) { return fluid_ + k; });
+  p.resize(fluid_ + records.size() / record_bytes(columns));
+  unpack(columns_of(p), records, [&](std::size_t k) { return fluid_ + k; });
   state_.forget_index();
 }
 
@@ -276,18 +229,20 @@ void domain<D, R>::halo() {
   for (std::size_t i = 0; i < fluid_; ++i) {
     if (p.kind[i] != particle_kind::fluid) continue;
     own.push_back(static_cast<std::uint32_t>(i));
-    if (near_.empty() || !omega_.contains(p.position(i))) continue;  // what is outside the index will lose
-    each_rank_near(position(p, i), near_, [&](int rank) {
+    if (!omega_.contains(p.position(i))) continue;  // what is outside the index will lose
+    near_.each_near(in_double(p.position(i)), [&](int rank) {
       if (rank == here) return;
       list.push_back(static_cast<std::uint32_t>(i));
       to.push_back(rank);
     });
   }
   exchange_ = exchange(std::move(to));
-  const auto records = exchange_.forward(packed(p, list), record_bytes(p), haloed_);
+  const auto columns = columns_of(p);
+  const auto records = exchange_.forward(packed(columns, list), record_bytes(columns), haloed_);
   halo_ids_.resize(list.size());
   for (std::size_t k = 0; k < list.size(); ++k) halo_ids_[k] = p.id[list[k]];
   replace_fluid(own, records, true);
+  own_ = own.size();
   const auto first = p.id.begin() + static_cast<std::ptrdiff_t>(own.size());
   ghost_ids_.assign(first, first + static_cast<std::ptrdiff_t>(exchange_.received()));
 }
@@ -308,49 +263,31 @@ template <int D, class R>
 void domain<D, R>::refresh() {
   auto& p = state_.particles();
   find_places();
-  std::array<column<R>*, 2 * D + 1> columns;
-  for (int d = 0; d < D; ++d) {
-    columns[static_cast<std::size_t>(d)] = &p.x[d];
-    columns[static_cast<std::size_t>(D + d)] = &p.v[d];
-  }
-  columns.back() = &p.rho;
-  constexpr std::size_t bytes = sizeof(R) * (2 * D + 1);
-  std::vector<std::byte> items(halo_places_.size() * bytes);
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    for (std::size_t k = 0; k < halo_places_.size(); ++k)
-      std::memcpy(items.data() + k * bytes + c * sizeof(R), columns[c]->data() + halo_places_[k], sizeof(R));
-  const auto got = exchange_.forward(items, bytes, haloed_);
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    for (std::size_t k = 0; k < ghost_places_.size(); ++k)
-      std::memcpy(columns[c]->data() + ghost_places_[k], got.data() + k * bytes + c * sizeof(R), sizeof(R));
+  std::vector<byte_column> columns;
+  const auto add = [&](column<R>& c) { columns.push_back({reinterpret_cast<std::byte*>(c.data()), sizeof(R)}); };
+  for (auto& c : p.x) add(c);
+  for (auto& c : p.v) add(c);
+  add(p.rho);
+  const auto got = exchange_.forward(packed(columns, halo_places_), record_bytes(columns), haloed_);
+  unpack(columns, got, [&](std::size_t k) { return ghost_places_[k]; });
 }
 
 template <int D, class R>
 void domain<D, R>::send_back() {
   find_places();
   const rate_columns rates = state_.columns_of_rates();
-  std::size_t bytes = 0;
-  for (const std::uint16_t b : rates.bytes) bytes += b;
-  std::vector<std::byte> items(ghost_places_.size() * bytes);
-  std::size_t offset = 0;
-  for (std::size_t c = 0; c < rates.bytes.size(); offset += rates.bytes[c++]) {
-    const auto* const column = static_cast<const std::byte*>(rates.view.begin[c]);
-    for (std::size_t k = 0; k < ghost_places_.size(); ++k)
-      std::memcpy(items.data() + k * bytes + offset, column + ghost_places_[k] * rates.bytes[c], rates.bytes[c]);
-  }
-  const auto got = exchange_.back(items, bytes, sent_back_);
-  const std::size_t n = halo_places_.size();
-  std::vector<std::vector<std::byte>> columns(rates.bytes.size());
-  std::vector<void*> begin;
-  offset = 0;
-  for (std::size_t c = 0; c < columns.size(); offset += rates.bytes[c++]) {
-    columns[c].resize(n * rates.bytes[c] + 1);
-    for (std::size_t k = 0; k < n; ++k)
-      std::memcpy(columns[c].data() + k * rates.bytes[c], got.data() + k * bytes + offset, rates.bytes[c]);
-    begin.push_back(columns[c].data());
-  }
-  const rate_view from{begin.data(), 0};
-  for (std::size_t k = 0; k < n; ++k) rates.add(rates.view, halo_places_[k], from, k, 1);
+  const auto columns_at = [&](const rate_view& view) {
+    std::vector<byte_column> columns;
+    for (std::size_t c = 0; c < rates.bytes.size(); ++c)
+      columns.push_back({static_cast<std::byte*>(view.begin[c]), rates.bytes[c]});
+    return columns;
+  };
+  const auto columns = columns_at(rates.view);
+  const auto got = exchange_.back(packed(columns, ghost_places_), record_bytes(columns), sent_back_);
+  rate_copy more;
+  more.resize(rates.bytes, halo_places_.size());
+  unpack(columns_at(more.view()), got, [](std::size_t k) { return k; });
+  for (std::size_t k = 0; k < halo_places_.size(); ++k) rates.add(rates.view, halo_places_[k], more.view(), k, 1);
 }
 
 template <int D, class R>

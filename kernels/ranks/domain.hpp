@@ -1,11 +1,10 @@
 #pragma once
-#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <pairsum/core/places.hpp>
 #include <pairsum/ranks/exchange.hpp>
+#include <pairsum/ranks/near_boxes.hpp>
 #include <pairsum/ranks/partition.hpp>
 #include <pairsum/sum/state.hpp>
 
@@ -34,7 +33,10 @@ class domain {
   /// What comes before each index: refresh(), or, if that is not enough any more, migrate() and halo().
   void update();
   /// Moves particles that left the box to their new owners.
-  void migrate() { move_to_owners(migrated_); }
+  void migrate() {
+    wrap(state_.particles(), fluid_);
+    move_to_owners(migrated_);
+  }
   /// Copies particles within reach of other ranks' boxes to them; forgets the ghosts of before.
   void halo();
   /// Gives the ghosts their owners' present positions, velocities and densities.
@@ -48,22 +50,10 @@ class domain {
   std::uint64_t ghosts() const { return exchange_.received(); }
 
  private:
-  using place = std::array<double, 3>;
-  /// Another rank's box, or this one's, as seen from here: moved by whole edges of a periodic domain.
-  struct near_box {
-    int rank;
-    place low, high;  ///< farther out by the reach
-  };
-
-  place position(const particle_set<D, R>& p, std::size_t i) const;
-  void find_near_boxes();
   void wrap(particle_set<D, R>& p, std::size_t n) const;
   /// After an index, which puts lost particles behind all others.
   void count_fluid();
   void move_to_owners(traffic& count);
-  /// Calls f(rank) for the ranks with one of these boxes within reach of x.
-  template <class F>
-  void each_rank_near(const place& x, std::span<const near_box> boxes, F&& f);
   void copy_boundary(traffic& count);
   /// The fluid shrinks to `keep` and gets `records` behind it.
   void replace_fluid(const std::vector<std::uint32_t>& keep, const std::vector<std::byte>& records, bool ghosts);
@@ -75,12 +65,11 @@ class domain {
   state<D, R>& state_;
   box<D, R> omega_;
   torus<D, R> torus_;
-  double reach_, skin_;
+  double skin_;
   partition partition_;
-  std::vector<near_box> near_, everywhere_;  ///< those near this rank's box, and all
-  std::vector<int> found_;                   ///< of each_rank_near
-  particle_set<D, R> home_;                  ///< this rank's share of the boundary, whoever needs copies
-  std::size_t fluid_ = 0;                    ///< own and ghosts at the front of the set
+  near_boxes near_;
+  particle_set<D, R> home_;  ///< this rank's share of the boundary, whoever needs copies
+  std::size_t fluid_ = 0;    ///< own and ghosts at the front of the set
   std::size_t own_ = 0;
   exchange exchange_;                                      ///< of the last halo
   std::vector<std::uint32_t> halo_ids_, ghost_ids_;        ///< of the particles sent and received, in its order

@@ -7,6 +7,7 @@
 #include <mpi.h>
 
 #include <pairsum/core/error.hpp>
+#include <pairsum/ranks/gathered.hpp>
 
 namespace pairsum::ranks {
 
@@ -35,16 +36,10 @@ std::vector<std::vector<double>> job::gather(std::span<const double> own) const 
 }
 
 std::vector<std::string> job::gather(const std::string& own) const {
-  const int n = static_cast<int>(own.size());
-  std::vector<int> sizes(static_cast<std::size_t>(size_)), begins(sizes.size());
-  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD);
-  int total = 0;
-  for (std::size_t k = 0; k < sizes.size(); total += sizes[k++]) begins[k] = total;
-  std::string all(static_cast<std::size_t>(total), ' ');
-  MPI_Allgatherv(own.data(), n, MPI_CHAR, all.data(), sizes.data(), begins.data(), MPI_CHAR, MPI_COMM_WORLD);
+  const auto all = gathered_by_rank(std::vector<char>(own.begin(), own.end()));
   std::vector<std::string> by_rank;
-  for (std::size_t k = 0; k < sizes.size(); ++k)
-    by_rank.push_back(all.substr(static_cast<std::size_t>(begins[k]), static_cast<std::size_t>(sizes[k])));
+  for (std::size_t k = 0; k < static_cast<std::size_t>(size_); ++k)
+    by_rank.emplace_back(all.elements.begin() + all.begin[k], all.elements.begin() + all.begin[k + 1]);
   return by_rank;
 }
 

@@ -1,43 +1,43 @@
 #include <pairsum/ranks/ranked.hpp>
 
 #include <algorithm>
-#include <cstring>
 #include <functional>
-#include <numeric>
 #include <optional>
 
 #include <mpi.h>
 
 #include <pairsum/core/error.hpp>
+#include <pairsum/core/word_hash.hpp>
 #include <pairsum/integrators/with_state.hpp>
 #include <pairsum/ranks/domain.hpp>
+#include <pairsum/ranks/gathered.hpp>
 #include <pairsum/sum/check.hpp>
 
 namespace pairsum::ranks {
 namespace {
 
-/// All ranks' elements, those of rank 0 first, on every rank.
-template <class T>
-std::vector<T> gathered(const std::vector<T>& own) {
-  int ranks = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  MPI_Datatype element;
-  MPI_Type_contiguous(sizeof(T), MPI_BYTE, &element);
-  MPI_Type_commit(&element);
-  const int n = static_cast<int>(own.size());
-  std::vector<int> sizes(static_cast<std::size_t>(ranks)), begins(sizes.size(), 0);
-  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD);
-  std::exclusive_scan(sizes.begin(), sizes.end(), begins.begin(), 0);
-  std::vector<T> all(static_cast<std::size_t>(begins.back()) + static_cast<std::size_t>(sizes.back()));
-  MPI_Allgatherv(own.data(), n, element, all.data(), sizes.data(), begins.data(), element, MPI_COMM_WORLD);
-  MPI_Type_free(&element);
-  return all;
-}
-
 std::uint64_t total(std::uint64_t own) {
   MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
   return own;
 }
+
+/// Rows of tables in id order, each of which one rank has.
+class rows_of_all {
+ public:
+  explicit rows_of_all(std::vector<std::uint32_t> own_ids) : own_(std::move(own_ids)), all_(gathered(own_)) {}
+
+  /// Takes a column's rows of every rank from that rank's table.
+  template <class T>
+  void take(const std::vector<T>& from, std::vector<T>& to) const {
+    std::vector<T> own;
+    for (const std::uint32_t id : own_) own.push_back(from[id]);
+    const std::vector<T> column = gathered(own);
+    for (std::size_t k = 0; k < all_.size(); ++k) to[all_[k]] = column[k];
+  }
+
+ private:
+  std::vector<std::uint32_t> own_, all_;
+};
 
 /// What the rest of this file needs of a domain, whatever its dimension and precision.
 struct any_domain {
@@ -131,48 +131,27 @@ class ranked_summation final : public summation {
     const rate_table own = local_->rates();
     rate_table all{own.names, {}};
     all.columns.assign(own.columns.size(), std::vector<double>(rows_, 0.0));
-    const auto ids = domain_.own_ids();
-    const auto all_ids = gathered(ids);
-    for (std::size_t c = 0; c < own.columns.size(); ++c) {
-      std::vector<double> some;
-      for (const std::uint32_t id : ids) some.push_back(own.columns[c][id]);
-      const auto column = gathered(some);
-      for (std::size_t k = 0; k < all_ids.size(); ++k) all.columns[c][all_ids[k]] = column[k];
-    }
+    const rows_of_all rows(domain_.own_ids());
+    for (std::size_t c = 0; c < own.columns.size(); ++c) rows.take(own.columns[c], all.columns[c]);
     return all;
   }
   std::uint64_t fingerprint() const override {
-    std::uint64_t hash = 0xcbf29ce484222325u;
+    word_hash hash;
     for (const auto& column : rates().columns)
-      for (const double a : column) {
-        std::uint64_t word;
-        std::memcpy(&word, &a, sizeof a);
-        hash = (hash ^ word) * 0x100000001b3u;
-        hash ^= hash >> 29;
-      }
-    return hash;
+      for (const double a : column) hash.add(a);
+    return hash.value();
   }
   particle_table snapshot() const override {
     const particle_table own = local_->snapshot();
     particle_table all = boundary_;
-    const auto ids = domain_.own_ids();
-    const auto all_ids = gathered(ids);
-    const auto take = [&](const std::vector<double>& from, std::vector<double>& to) {
-      std::vector<double> some;
-      for (const std::uint32_t id : ids) some.push_back(from[id]);
-      const auto column = gathered(some);
-      for (std::size_t k = 0; k < all_ids.size(); ++k) to[all_ids[k]] = column[k];
-    };
+    const rows_of_all rows(domain_.own_ids());
     for (std::size_t d = 0; d < own.x.size(); ++d) {
-      take(own.x[d], all.x[d]);
-      take(own.v[d], all.v[d]);
+      rows.take(own.x[d], all.x[d]);
+      rows.take(own.v[d], all.v[d]);
     }
-    take(own.rho, all.rho);
-    take(own.m, all.m);
-    std::vector<particle_kind> kinds;
-    for (const std::uint32_t id : ids) kinds.push_back(own.kind[id]);
-    kinds = gathered(kinds);
-    for (std::size_t k = 0; k < all_ids.size(); ++k) all.kind[all_ids[k]] = kinds[k];
+    rows.take(own.rho, all.rho);
+    rows.take(own.m, all.m);
+    rows.take(own.kind, all.kind);
     return all;
   }
   std::size_t lost() const override { return total(local_->lost()); }

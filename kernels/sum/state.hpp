@@ -48,7 +48,6 @@ class state : public summation {
   std::size_t boundary_count() const { return index_.boundary(); }
   const cells<D>& view() const { return index_.view(); }
   const setup& settings() const { return setup_; }
-  std::size_t rows_total() const { return rows_total_; }
   /// The fluid's rates, a column per scalar, and how they are added to.
   virtual rate_columns columns_of_rates() const = 0;
 
