@@ -92,7 +92,7 @@ study_plan plan_from_options(const run_options& o, const given_options& given) {
   plan.peaks = o.peaks;
   part_plan part;
   std::map<std::string, std::string> levels = o.levels;
-  if (!given.at("ranks")) levels["ranks"] = std::to_string(ranks_unless_said());
+  if (!given.at("ranks")) levels["ranks"] = std::to_string(default_ranks());
   if (!given.at("threads") && levels["ranks"] != "1") levels["threads"] = "cores/ranks";
   part.request = levels_of(levels, o.profile, given);
   part.request.study = o.study;
@@ -121,10 +121,10 @@ study_plan plan_of(const run_options& o, const given_options& given) {
                       option_of(key), o.plan, key));
   if (given.at("study")) throw error("--study is said by the plan " + o.plan);
   nlohmann::json text = load_plan(o.plan);
-  if (text.is_object() && ranks_unless_said() > 1) {
+  if (text.is_object() && default_ranks() > 1) {
     nlohmann::json& defaults = text["defaults"];
     if (defaults.is_null() || (defaults.is_object() && !defaults.contains("ranks")))
-      defaults["ranks"] = ranks_unless_said();
+      defaults["ranks"] = default_ranks();
   }
   study_plan plan = in_plan(o, [&] { return parse_plan(text, usable_cores()); });
   if (given.at("seed"))
@@ -239,7 +239,7 @@ int start(const run_options& o, const given_options& given) {
   options.out = o.out.empty() ? rows_path(o.results, plan, o.fresh, o.binding) : std::filesystem::path(o.out);
   options.program = called_as();
   options.again = o.again;
-  if (const int ranks = ranks_unless_said(); ranks > 1) options.before = fmt::format("{} -n {} ", o.launcher, ranks);
+  if (const int ranks = default_ranks(); ranks > 1) options.before = fmt::format("{} -n {} ", o.launcher, ranks);
   return conduct(plan, options, all);
 }
 

@@ -125,7 +125,7 @@ void check_sbatch(const given_options& given) {
       throw error(fmt::format("--sbatch prints a job script and --{} something else: leave one of them out", other));
   if (given.at("fresh"))
     throw error("--fresh would start over each time that the job of --sbatch is submitted: name a new file with --out");
-  if (ranks_unless_said() > 1)
+  if (default_ranks() > 1)
     throw error("--sbatch writes a job, so it starts outside of one: leave mpirun or srun out, and say --ranks");
 }
 

@@ -61,7 +61,7 @@ int start(const simulate_options& o, const given_options& given) {
   r.levels = levels_of(o.levels, o.profile, given);
   r.snapshots = o.snapshots;
   fmt::print("{}", take_particles(r.levels));
-  if (!given.at("ranks")) r.levels.ranks = {ranks_unless_said()};
+  if (!given.at("ranks")) r.levels.ranks = {default_ranks()};
   if (r.levels.ranks.size() != 1)
     throw error(fmt::format("simulate takes one of each, but --ranks names {}", r.levels.ranks.size()));
   check_request(r.levels, simulate_registry());

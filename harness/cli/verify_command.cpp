@@ -92,7 +92,7 @@ int verify(const verify_options& o) {
   q.states = parse_words("--state", o.state);
   q.M = parse_counts("--M", o.M, 0);
   q.threads = parse_counts("--threads", o.threads, usable_cores());
-  q.ranks = parse_counts("--ranks", o.ranks == "1" ? std::to_string(ranks_unless_said()) : o.ranks, 0);
+  q.ranks = parse_counts("--ranks", o.ranks == "1" ? std::to_string(default_ranks()) : o.ranks, 0);
   if (q.ranks.size() > 1) throw error(fmt::format("verify takes one number of ranks, not \"{}\"", o.ranks));
   q.cuts = parse_words("--cut", o.cut);
   q.backends = words_or_all("--backend", o.backend, available_backends(r));

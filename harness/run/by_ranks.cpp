@@ -39,7 +39,7 @@ std::optional<int> by_ranks(int ranks, const std::string& launcher, int threads)
   note_interrupts();
   std::vector<std::string> words = own_words();
   words.erase(words.begin());
-  if (ranks_unless_said() > 1) words.insert(words.end(), {"--ranks", std::to_string(ranks)});
+  if (default_ranks() > 1) words.insert(words.end(), {"--ranks", std::to_string(ranks)});
   const departure end =
       run_job(launcher, this_program(), ranks, words, "", ranks * threads > usable_cores() * job_nodes());
   if (interrupted()) return 130;
@@ -67,7 +67,7 @@ bool left_to_the_first() {
   throw error(fmt::format("cannot start this program outside of its job: {}", std::strerror(errno)));
 }
 
-int ranks_unless_said() {
+int default_ranks() {
   const char* const text = std::getenv(size_of_outer_job);
   return text == nullptr ? 1 : std::max(1, std::atoi(text));
 }

@@ -11,11 +11,11 @@ namespace pairsum::harness {
 /// @param threads of each rank, at most
 std::optional<int> by_ranks(int ranks, const std::string& launcher, int threads);
 
-/// In a job that somebody else started this program in: its first process goes on alone and takes the job's size for
-/// the number of ranks that nobody said; returns true in the others, which have nothing to do.
+/// For a program that runs inside an MPI job that the user started. The job's first process goes on alone; the job's
+/// size becomes its default number of ranks. Returns true in the other processes, which have nothing to do.
 bool left_to_the_first();
 
-/// That number; 1 outside of such a job.
-int ranks_unless_said();
+/// The default number of ranks: the size of such a job, 1 outside of one.
+int default_ranks();
 
 }  // namespace pairsum::harness

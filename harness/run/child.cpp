@@ -1,6 +1,7 @@
 #include "harness/run/child.hpp"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -54,6 +55,14 @@ pid_t start_child(int signal_of_death, const std::function<void()>& become) {
   if (::getppid() != parent) ::_exit(orphaned);  // it has died meanwhile
   become();
   ::_exit(cannot_run);
+}
+
+int file_of(const char* called, const std::string& text) {
+  const int file = ::memfd_create(called, MFD_CLOEXEC);
+  if (file < 0 || ::write(file, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+    throw error(fmt::format("cannot hand an order to a process: {}", std::strerror(errno)));
+  ::lseek(file, 0, SEEK_SET);
+  return file;
 }
 
 void forwarded_interrupt::look() {

@@ -1,6 +1,7 @@
 #pragma once
 #include <sys/types.h>
 #include <functional>
+#include <string>
 
 #include "harness/run/order.hpp"
 
@@ -24,6 +25,10 @@ class forwarded_interrupt {
   pid_t child_;
   bool told_ = false;
 };
+
+/// A file without a name that holds the text, from its beginning, for a child to read. `called`: in /proc.
+/// Throws pairsum::error if the system cannot.
+int file_of(const char* called, const std::string& text);
 
 /// Waits for its end and hands interrupts on meanwhile.
 departure wait_for(pid_t child);

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -78,15 +77,6 @@ void set_environment(bool crowded) {
   if (::isatty(STDOUT_FILENO) == 0) ::setenv("NO_COLOR", "1", 0);  // a launcher may give ranks a terminal of its own
 }
 
-/// A file without a name that holds the text.
-int file_of(const std::string& text) {
-  const int file = ::memfd_create("pairsum-input", MFD_CLOEXEC);
-  if (file < 0 || ::write(file, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
-    throw error(fmt::format("cannot hand words to a job: {}", std::strerror(errno)));
-  ::lseek(file, 0, SEEK_SET);
-  return file;
-}
-
 /// Reads what the job writes until it ends; ranks that outlive their launcher may keep the pipe open.
 departure listen(pid_t child, int pipe, job_output& heard) {
   constexpr int look_ms = 100;
@@ -153,7 +143,7 @@ departure run_job(const std::string& launcher, const std::filesystem::path& prog
   arguments.push_back(nullptr);
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) throw error(fmt::format("cannot listen to a job: {}", std::strerror(errno)));
-  const int in = file_of(input);
+  const int in = file_of("pairsum-input", input);
   std::fflush(stdout);
   const pid_t child = start_child(SIGTERM, [&] {
     set_environment(crowded);

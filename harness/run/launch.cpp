@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,15 +24,6 @@
 namespace pairsum::harness {
 namespace {
 
-/// A file without a name that holds the order.
-int order_file(const std::string& text) {
-  const int file = ::memfd_create("pairsum-order", MFD_CLOEXEC);
-  if (file < 0 || ::write(file, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
-    throw error(fmt::format("cannot hand an order to a process: {}", std::strerror(errno)));
-  ::lseek(file, 0, SEEK_SET);
-  return file;
-}
-
 /// Behind the order: the code with which its work was done, as text.
 constexpr std::string_view mark = "\ndone ";
 
@@ -53,7 +43,7 @@ void become(const std::string& program, const std::string& descriptor, int file,
 
 departure in_one_process(const std::string& name, const order& o) {
   const std::string text = order_json(o).dump();
-  const int file = order_file(text);
+  const int file = file_of("pairsum-order", text);
   const std::string descriptor = std::to_string(file);
   departure end = wait_for(start_child(SIGKILL, [&] { become(name, descriptor, file, o.store); }));
   const std::optional<int> code = code_when_done(file, text.size());

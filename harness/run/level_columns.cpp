@@ -33,7 +33,7 @@ const level levels[] = {
      true},
 };
 
-/// One rank is what nobody speaks of.
+/// A single rank is not shown.
 bool is_plain(const level& l, const std::string& word) { return std::string_view(l.name) == "ranks" && word == "1"; }
 
 /// The words of the points by backend.

@@ -68,32 +68,47 @@ class unpacker {
   std::size_t at_ = 0;
 };
 
-}  // namespace
+/// Calls f with each field of an expectation, in the order in which they are packed.
+template <class E, class F>
+void each_field(E& e, F&& f) requires std::is_same_v<std::remove_const_t<E>, expectation> {
+  f(e.names);
+  f(e.ids);
+  f(e.value);
+  f(e.bound);
+  f(e.magnitude);
+  f(e.pairs_fluid_fluid);
+  f(e.pairs_fluid_boundary);
+}
+template <class V, class F>
+void each_field(V& v, F&& f) requires std::is_same_v<std::remove_const_t<V>, verdict> {
+  f(v.ok);
+  f(v.max_rel_err);
+  f(v.bound);
+  f(v.error);
+  f(v.finite);
+}
 
-std::string pack(const expectation& e) {
+template <class T>
+std::string packed(const T& all) {
   packer p;
-  p.put(e.names);
-  p.put(e.ids);
-  p.put(e.value);
-  p.put(e.bound);
-  p.put(e.magnitude);
-  p.put(e.pairs_fluid_fluid);
-  p.put(e.pairs_fluid_boundary);
+  each_field(all, [&](const auto& field) { p.put(field); });
   return std::move(p.bytes);
 }
-
-expectation unpack_expectation(const std::string& bytes) {
+template <class T>
+T unpacked(const std::string& bytes) {
   unpacker u(bytes);
-  expectation e;
-  u.get(e.names);
-  u.get(e.ids);
-  u.get(e.value);
-  u.get(e.bound);
-  u.get(e.magnitude);
-  u.get(e.pairs_fluid_fluid);
-  u.get(e.pairs_fluid_boundary);
-  return e;
+  T all;
+  each_field(all, [&](auto& field) { u.get(field); });
+  return all;
 }
+
+}  // namespace
+
+std::string pack(const expectation& e) { return packed(e); }
+expectation unpack_expectation(const std::string& bytes) { return unpacked<expectation>(bytes); }
+
+std::string pack(const verdict& v) { return packed(v); }
+verdict unpack_verdict(const std::string& bytes) { return unpacked<verdict>(bytes); }
 
 std::string pack(const verdict_map& known) {
   packer p;
@@ -106,27 +121,6 @@ std::string pack(const verdict_map& known) {
     p.put(v.bound);
   }
   return std::move(p.bytes);
-}
-
-std::string pack(const verdict& v) {
-  packer p;
-  p.put(v.ok);
-  p.put(v.max_rel_err);
-  p.put(v.bound);
-  p.put(v.error);
-  p.put(v.finite);
-  return std::move(p.bytes);
-}
-
-verdict unpack_verdict(const std::string& bytes) {
-  unpacker u(bytes);
-  verdict v;
-  u.get(v.ok);
-  u.get(v.max_rel_err);
-  u.get(v.bound);
-  u.get(v.error);
-  u.get(v.finite);
-  return v;
 }
 
 verdict_map unpack_verdicts(const std::string& bytes) {
